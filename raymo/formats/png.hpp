@@ -1,0 +1,17 @@
+// PNG, as bytes in memory.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "raymo/core/result.hpp"
+#include "raymo/image/film.hpp"
+
+namespace raymo::formats {
+
+using Bytes = std::vector<std::uint8_t>;
+
+/// 8-bit sRGB PNG. Error: io when libpng fails (out of memory).
+[[nodiscard]] Result<Bytes> encode_png(const image::Film& film);
+
+}  // namespace raymo::formats

@@ -1,0 +1,25 @@
+// Arithmetic that kernels are written in: the same text serves one ray (double, bool) and several rays at once (a vector
+// type and its mask, given by trace/). Every operation is one correctly rounded IEEE operation, so all give equal bits.
+#pragma once
+
+#include <cmath>
+
+namespace raymo {
+
+[[nodiscard]] inline double lane_sqrt(double a) { return std::sqrt(a); }
+[[nodiscard]] inline double lane_abs(double a) { return std::fabs(a); }
+/// a < b ? a : b, so the second operand where one is NaN.
+[[nodiscard]] constexpr double lane_min(double a, double b) { return a < b ? a : b; }
+[[nodiscard]] constexpr double lane_max(double a, double b) { return a > b ? a : b; }
+[[nodiscard]] inline double lane_copysign(double size, double sign) {
+    return std::copysign(size, sign);
+}
+[[nodiscard]] constexpr double lane_select(bool mask, double yes, double no) {
+    return mask ? yes : no;
+}
+[[nodiscard]] constexpr bool lane_and(bool a, bool b) { return a && b; }
+[[nodiscard]] constexpr bool lane_or(bool a, bool b) { return a || b; }
+[[nodiscard]] constexpr bool lane_not(bool a) { return !a; }
+[[nodiscard]] constexpr bool lane_any(bool a) { return a; }
+
+}  // namespace raymo

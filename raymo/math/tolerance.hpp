@@ -1,0 +1,26 @@
+// The only home of tolerances. Each is a bound that follows from the arithmetic, with its derivation.
+#pragma once
+
+namespace raymo {
+
+/// Half the distance from 1 to the next double: the relative error of one correctly rounded operation.
+inline constexpr double kUnitRoundoff = 0x1p-53;
+
+/// Input rounding of every number of a transformation: the entries were typed in decimal or computed by the program, so
+/// each carries an error of up to 2 roundings (relative; zeros are exact).
+inline constexpr double kInputError = 2.0 * kUnitRoundoff;
+
+/// Error of a point on a ray in a leaf's own frame, relative to the row length of the map times the distance from the
+/// ray's origin to the leaf's centre: subtraction (1), product of matrix row and vector (3), the same for the direction
+/// (3) times the shift along the ray, the shift's own product and sum (2), counted for both factors and doubled for the
+/// difference between the max-norm and the Euclidean norm used in the bound.
+inline constexpr double kPointError = 24.0 * kUnitRoundoff;
+
+/// A surface crossing is called degenerate when its position along the ray is uncertain by more than this part of the
+/// leaf's size: the ray runs in the surface to within rounding. Such a ray is moved aside by kSidestep times its
+/// position error and traced again. With the crossing uncertain by less than 2^-12 the ray departs from the surface by
+/// more than 2^-1 * 2^-12... so a step of 2^14 errors takes it clear of the surface over the whole leaf.
+inline constexpr double kDegenerate = 0x1p-12;
+inline constexpr double kSidestep = 0x1p14;
+
+}  // namespace raymo

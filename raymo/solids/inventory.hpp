@@ -1,0 +1,44 @@
+// Every primitive RAYMO knows, in the order of the manual. Adding a solid is one folder and one line here.
+#pragma once
+
+#include <variant>
+
+#include "raymo/solids/block/block.hpp"
+#include "raymo/solids/cone/cone.hpp"
+#include "raymo/solids/cylinder/cylinder.hpp"
+#include "raymo/solids/halfspace/halfspace.hpp"
+#include "raymo/solids/primitive.hpp"
+#include "raymo/solids/quadric/quadric.hpp"
+#include "raymo/solids/sphere/sphere.hpp"
+#include "raymo/solids/torus/torus.hpp"
+
+namespace raymo::solids {
+
+template <Primitive... Ps>
+struct List {
+    using Kernels = std::variant<typename Ps::Kernel...>;
+    static constexpr std::size_t kSize = sizeof...(Ps);
+    /// Calls f.template operator()<P>() for every primitive, in order.
+    template <class F>
+    static constexpr void for_each(F&& f) {
+        (f.template operator()<Ps>(), ...);
+    }
+};
+
+using Inventory = List<Block, Sphere, Cylinder, Cone, Torus, Halfspace, Quadric>;
+
+/// Any kernel of the inventory.
+using AnyKernel = Inventory::Kernels;
+/// Any prepared primitive.
+using AnySolid = Placed<AnyKernel>;
+
+/// One row of the inventory for callers that choose at run time (the language, the manual).
+struct Entry {
+    const Schema* schema;
+    /// check() and prepare().
+    Result<AnySolid> (*make)(std::span<const Argument> arguments);
+    std::span<const std::vector<Argument>> (*examples)();
+};
+[[nodiscard]] std::span<const Entry> inventory();
+
+}  // namespace raymo::solids

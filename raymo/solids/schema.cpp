@@ -1,0 +1,64 @@
+#include "raymo/solids/schema.hpp"
+
+#include <charconv>
+#include <cmath>
+#include <string>
+
+#include "raymo/core/assert.hpp"
+
+namespace raymo::solids {
+namespace {
+
+std::string shown(double value) {
+    if (std::isnan(value)) return "nan";
+    if (std::isinf(value)) return value > 0 ? "inf" : "-inf";
+    std::array<char, 32> text{};
+    const auto end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;
+    return {text.data(), end};
+}
+
+Result<void> check_number(const Schema& schema, const Param& param, double value) {
+    const std::string subject = std::string(schema.name) + ": " + std::string(param.words);
+    if (!std::isfinite(value)) {
+        return Failure(Error{ErrorCode::out_of_range, subject + " must be a finite number",
+                             "this is " + shown(value), {}, -1, {}});
+    }
+    if (value < param.min || (value == param.min && !param.min_included)) {
+        const std::string relation = param.min_included ? " must be at least " : " must be greater than ";
+        const std::string hint =
+            param.min == 0.0 ? "give a " + std::string(param.min_included ? "non-negative " : "positive ") +
+                                   std::string(param.words)
+                             : std::string();
+        return Failure(Error{ErrorCode::out_of_range, subject + relation + shown(param.min),
+                             "this is " + shown(value), hint, -1, {}});
+    }
+    return {};
+}
+
+}  // namespace
+
+Result<void> check(const Schema& schema, std::span<const Argument> arguments) {
+    RAYMO_ASSERT(arguments.size() == schema.params.size());
+    for (std::size_t i = 0; i < arguments.size(); ++i) {
+        const Param& param = schema.params[i];
+        Result<void> result;
+        if (const double* number = std::get_if<double>(&arguments[i])) {
+            result = check_number(schema, param, *number);
+        } else if (const Vec3* v = std::get_if<Vec3>(&arguments[i])) {
+            for (int axis = 0; axis < 3 && result; ++axis) {
+                result = check_number(schema, param, (*v)[axis]);
+            }
+        } else if (const Matrix4* m = std::get_if<Matrix4>(&arguments[i])) {
+            for (std::size_t k = 0; k < m->size() && result; ++k) {
+                result = check_number(schema, param, (*m)[k]);
+            }
+        }
+        if (!result) {
+            result.error().argument = static_cast<int>(i);
+            return result;
+        }
+    }
+    return {};
+}
+
+}  // namespace raymo::solids

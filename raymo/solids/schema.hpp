@@ -1,0 +1,54 @@
+// What a primitive takes, as data: the language's builtin, its checks, the manual page and the sliders follow from it.
+#pragma once
+
+#include <array>
+#include <limits>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <variant>
+
+#include "raymo/core/result.hpp"
+#include "raymo/math/vec.hpp"
+
+namespace raymo::solids {
+
+enum class ParamKind : unsigned char {
+    length,  ///< number [mm]
+    number,  ///< number without unit
+    angle,   ///< number [degrees]
+    flag,    ///< boolean
+    vector,  ///< three numbers
+    size,    ///< three lengths, given as one vector, as three numbers in a row, or as one number for all three
+    matrix,  ///< 4x4 list of numbers by rows
+};
+
+using Matrix4 = std::array<double, 16>;
+using Argument = std::variant<double, bool, Vec3, Matrix4>;
+
+struct Param {
+    std::string_view name;  ///< as written in the language
+    std::string_view words;  ///< as spoken of in errors: "radius"
+    ParamKind kind = ParamKind::length;
+    std::string_view doc;
+    /// Numbers (and each component of vectors and sizes) must be > min, or >= min where min_included.
+    double min = -std::numeric_limits<double>::infinity();
+    bool min_included = false;
+    /// Used when the argument is left out; required when this is empty.
+    std::optional<Argument> fallback = std::nullopt;
+    /// Another name under which twice the value may be given ("d" beside the radius "r"); empty: none.
+    std::string_view diameter = {};
+};
+
+struct Schema {
+    std::string_view name;
+    std::string_view doc;
+    std::span<const Param> params;
+    std::string_view example;  ///< an expression that the manual shows and the tests run
+};
+
+/// Checks that `arguments` (one for each param, in order, of the alternative its kind asks for) are finite and in range.
+/// Error: out_of_range with `argument` set and a label that shows the value.
+[[nodiscard]] Result<void> check(const Schema& schema, std::span<const Argument> arguments);
+
+}  // namespace raymo::solids

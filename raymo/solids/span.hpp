@@ -1,0 +1,82 @@
+// What a kernel answers along a ray, in the leaf's own frame.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "raymo/math/vec.hpp"
+
+namespace raymo::solids {
+
+/// Where a point is with respect to a solid.
+enum class Where : std::uint8_t { out, on, in };
+
+/// A ray in a leaf's own frame: x(s) = o + s d, where o is the ray's point nearest to the frame's origin.
+/// `e` bounds, component by component, how far the computed line may lie from the true one within the leaf (it also
+/// holds the leaf's own placement error). R is double, or a vector type with one ray a lane (math/lanes.hpp).
+template <class R>
+struct LocalRay {
+    R ox, oy, oz;
+    R dx, dy, dz;
+    R ex, ey, ez;
+    R dd;  ///< d.d
+};
+
+/// One end of a span. `error` bounds |computed s - true s|; it grows as the crossing becomes grazing.
+struct SpanEnd {
+    double s = 0.0;
+    double error = 0.0;
+    std::uint16_t face = 0;
+};
+
+/// An interval of s inside the solid; may reach from -infinity or to +infinity (error 0 there).
+struct Span {
+    SpanEnd enter;
+    SpanEnd exit;
+};
+
+/// Spans of one leaf along one ray: ascending, disjoint. Spans thinner than the sum of their ends' errors are left out.
+class SpanList {
+public:
+    void clear() {
+        count_ = 0;
+        spill_.clear();
+        degenerate_ = false;
+    }
+    void push(const Span& span) {
+        if (count_ < inline_.size()) {
+            inline_[count_] = span;
+        } else {
+            spill_.push_back(span);
+        }
+        ++count_;
+    }
+    /// The ray runs in the boundary to within rounding: the spans are not certain (see kDegenerate).
+    void set_degenerate() { degenerate_ = true; }
+    [[nodiscard]] bool degenerate() const { return degenerate_; }
+    [[nodiscard]] std::size_t size() const { return count_; }
+    [[nodiscard]] const Span& operator[](std::size_t i) const {
+        return i < inline_.size() ? inline_[i] : spill_[i - inline_.size()];
+    }
+
+private:
+    std::array<Span, 4> inline_;
+    std::vector<Span> spill_;
+    std::size_t count_ = 0;
+    bool degenerate_ = false;
+};
+
+/// Up to N spans of as many rays as R has lanes. `valid[i]` says for which lanes span i exists; `face` is a small whole
+/// number kept in R. M is R's mask type (bool for double).
+template <class R, class M, int N>
+struct LaneSpans {
+    M valid[N];
+    M degenerate;
+    R enter[N], exit[N];
+    R enter_error[N], exit_error[N];
+    R enter_face[N], exit_face[N];
+};
+
+}  // namespace raymo::solids

@@ -1,0 +1,93 @@
+// Rays in, surfaces and spans out.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "raymo/math/ray.hpp"
+#include "raymo/trace/compiled_scene.hpp"
+
+namespace raymo::trace {
+
+/// A place on a surface, kept by a hit and handed back with the rays that start there: no offset is needed, the crossing
+/// is recognised by leaf and face.
+struct SurfaceId {
+    static constexpr std::uint32_t kNone = 0xffffffffU;
+    std::uint32_t leaf = kNone;      ///< stored leaf
+    std::uint32_t instance = 0;      ///< which instance of it; 0 when the leaf is not instanced
+    std::uint16_t face = 0;
+
+    friend bool operator==(const SurfaceId&, const SurfaceId&) = default;
+};
+
+/// A question to the tracer.
+struct RayQuery {
+    Ray ray;
+    double t_max = std::numeric_limits<double>::infinity();
+    SurfaceId start = {};       ///< the surface that the ray starts on, or none
+    double start_error = 0.0;   ///< bound of the distance of ray.origin from that surface
+};
+
+/// A crossing of a part's boundary.
+struct Hit {
+    double t = 0.0;      ///< along the ray, in lengths of its direction
+    double error = 0.0;  ///< |t - true t| <= error
+    Vec3 point;
+    double point_error = 0.0;  ///< distance of `point` from the surface, at most
+    Vec3 normal;         ///< unit, out of the part
+    bool entering = true;
+    std::uint32_t part = 0;
+    csg::MaterialId material = csg::kNoMaterial;         ///< of the surface
+    /// Material of what the ray is in just before and just behind the surface; kAir when outside of everything.
+    static constexpr std::uint32_t kAir = 0xfffffffeU;
+    csg::MaterialId medium_before = kAir;
+    csg::MaterialId medium_after = kAir;
+    SurfaceId surface;
+};
+
+/// A span of one part along a ray; ends at infinity have t = +-inf and no surface.
+struct PartSpan {
+    Hit enter;
+    Hit exit;
+};
+
+struct RayCounts {
+    std::uint64_t primary = 0, shadow = 0, secondary = 0;
+    std::uint64_t boxes = 0, leaves = 0;
+};
+
+/// Answers rays. Holds scratch memory, so one per thread; the scene must outlive it.
+class Tracer {
+public:
+    explicit Tracer(const CompiledScene& scene);
+    ~Tracer();
+    Tracer(Tracer&&) noexcept;
+
+    /// First crossing of any part's boundary with 0 < t < t_max. False: none.
+    [[nodiscard]] bool first_hit(const RayQuery& query, Hit& hit);
+    /// True when a crossing of an opaque part's boundary lies within (0, t_max), or the ray starts inside one.
+    [[nodiscard]] bool occluded(const RayQuery& query);
+
+    static constexpr std::size_t kPacket = 8;
+    /// The same answers, bit for bit, for up to kPacket rays together; faster when the rays are close. found[i] tells
+    /// whether hits[i] is set.
+    void first_hits(std::span<const RayQuery> queries, Hit* hits, bool* found);
+    void occluded(std::span<const RayQuery> queries, bool* blocked);
+
+    /// All spans of every part along the whole line, from -infinity to +infinity, by part and then by t.
+    void spans(const Ray& ray, std::vector<std::vector<PartSpan>>& by_part);
+
+    [[nodiscard]] LeafInfo leaf_info(SurfaceId id) const;
+    [[nodiscard]] std::string_view face_name(SurfaceId id) const;
+
+    [[nodiscard]] const RayCounts& counts() const;
+
+private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+}  // namespace raymo::trace
