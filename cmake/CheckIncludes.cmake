@@ -1,14 +1,24 @@
-# Fails when a file below DIR includes a layer of raymo/ that is not in ALLOWED. Run with cmake -P.
+# Fails when a file below DIR includes a layer of raymo/ that is not in ALLOWED, or, outside of its tests, something that
+# only an app may touch: threads, files, the terminal, oneTBB. Run with cmake -P.
 cmake_minimum_required(VERSION 3.25)
+set(only_apps thread mutex shared_mutex condition_variable future stop_token semaphore latch barrier
+              filesystem fstream iostream cstdio stdio.h csignal signal.h unistd.h)
 set(bad "")
 file(GLOB_RECURSE files ${DIR}/*.hpp ${DIR}/*.cpp ${DIR}/*.inl)
 foreach(file ${files})
-  file(STRINGS ${file} lines REGEX "^[ \t]*#[ \t]*include[ \t]+\"(raymo|apps)/")
+  file(STRINGS ${file} lines REGEX "^[ \t]*#[ \t]*include[ \t]+[\"<]")
   foreach(line ${lines})
     if(line MATCHES "\"apps/")
       string(APPEND bad "${file}: a layer may not include apps/\n")
-    elseif(line MATCHES "\"raymo/([a-z_]+)/" AND NOT CMAKE_MATCH_1 IN_LIST ALLOWED)
-      string(APPEND bad "${file}: may not include layer '${CMAKE_MATCH_1}' (allowed: ${ALLOWED})\n")
+    elseif(line MATCHES "\"raymo/([a-z_]+)/")
+      if(NOT CMAKE_MATCH_1 IN_LIST ALLOWED)
+        string(APPEND bad "${file}: may not include layer '${CMAKE_MATCH_1}' (allowed: ${ALLOWED})\n")
+      endif()
+    elseif(line MATCHES "[\"<]((tbb|oneapi)/[^\">]*|[a-z_.]+)[\">]" AND NOT file MATCHES "_test\\.cpp$")
+      set(header ${CMAKE_MATCH_1})
+      if(header MATCHES "/" OR header IN_LIST only_apps)
+        string(APPEND bad "${file}: <${header}> is for apps only\n")
+      endif()
     endif()
   endforeach()
 endforeach()
