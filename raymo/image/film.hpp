@@ -1,6 +1,7 @@
 // A picture in linear light.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -33,5 +34,8 @@ struct Film {
 
 /// 8-bit sRGB by rows, top row first; values are clipped to 0..1 and rounded to nearest.
 [[nodiscard]] std::vector<std::uint8_t> to_srgb8(const Film& film);
+/// The same for `count` components, so that a picture can be encoded row by row. Not a number
+/// becomes 0.
+void to_srgb8(const float* linear, std::size_t count, std::uint8_t* out);
 
 }  // namespace raymo::image

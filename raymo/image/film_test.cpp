@@ -1,0 +1,76 @@
+#include "raymo/image/film.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <limits>
+
+using namespace raymo;
+using image::Film;
+
+namespace {
+
+std::uint8_t encoded(float x) {
+    std::uint8_t code = 0;
+    image::to_srgb8(&x, 1, &code);
+    return code;
+}
+
+/// The definition of IEC 61966-2-1, in long double.
+int expected(float x) {
+    if (!(x > 0.0F)) return 0;
+    if (x >= 1.0F) return 255;
+    const long double l = x;
+    const long double s = l <= 0.0031308L ? 12.92L * l : 1.055L * std::pow(l, 1.0L / 2.4L) - 0.055L;
+    return static_cast<int>(std::floor(255.0L * s + 0.5L));
+}
+
+}  // namespace
+
+TEST_CASE("film: every 8-bit sRGB code decodes and encodes to itself") {
+    for (int c = 0; c < 256; ++c) {
+        const double s = c / 255.0;
+        const double x = s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4);
+        CHECK(encoded(static_cast<float>(x)) == c);
+    }
+}
+
+TEST_CASE("film: encoding is rounded correctly everywhere") {
+    // All thresholds with their neighbouring floats, and a dense walk over all magnitudes.
+    int wrong = 0;
+    for (int c = 0; c < 255; ++c) {
+        const long double s = (c + 0.5L) / 255.0L;
+        const long double x = s <= 0.04045L ? s / 12.92L : std::pow((s + 0.055L) / 1.055L, 2.4L);
+        float f = static_cast<float>(x);
+        for (int i = 0; i < 4; ++i) f = std::nextafter(f, 0.0F);
+        for (int i = 0; i < 9; ++i, f = std::nextafter(f, 2.0F)) {
+            const int code = static_cast<long double>(f) >= x ? c + 1 : c;
+            wrong += encoded(f) != code;
+        }
+    }
+    CHECK(wrong == 0);
+    for (float x = 0x1p-20F; x < 1.5F; x *= 1.0003F) wrong += encoded(x) != expected(x);
+    CHECK(wrong == 0);
+}
+
+TEST_CASE("film: what is out of range or no number at all is clipped") {
+    CHECK(encoded(-1.0F) == 0);
+    CHECK(encoded(0.0F) == 0);
+    CHECK(encoded(1.0F) == 255);
+    CHECK(encoded(1e30F) == 255);
+    CHECK(encoded(std::numeric_limits<float>::infinity()) == 255);
+    CHECK(encoded(-std::numeric_limits<float>::infinity()) == 0);
+    CHECK(encoded(std::numeric_limits<float>::quiet_NaN()) == 0);
+    CHECK(encoded(std::numeric_limits<float>::denorm_min()) == 0);
+}
+
+TEST_CASE("film: rows go from the top, pixels from the left") {
+    Film film(3, 2);
+    film.set(2, 0, {1, 0, 0});
+    film.set(0, 1, {0, 1, 0});
+    const auto codes = image::to_srgb8(film);
+    REQUIRE(codes.size() == 18);
+    CHECK(codes[6] == 255);
+    CHECK(codes[9 + 1] == 255);
+    CHECK(film.at(2, 0) == Vec3{1, 0, 0});
+}
