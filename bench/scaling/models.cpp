@@ -1,0 +1,186 @@
+#include "scaling/models.hpp"
+
+#include <array>
+#include <cmath>
+#include <initializer_list>
+#include <random>
+#include <utility>
+#include <vector>
+
+namespace raymo::bench {
+namespace {
+
+using csg::Solid;
+
+/// A primitive by its name in the language; parameters that are not given take their fallback.
+Result<Solid> make(std::string_view name,
+                   std::initializer_list<std::pair<std::string_view, solids::Argument>> given) {
+    const auto inventory = solids::inventory();
+    for (std::uint32_t index = 0; index < inventory.size(); ++index) {
+        const solids::Schema& schema = *inventory[index].schema;
+        if (schema.name != name) continue;
+        std::vector<solids::Argument> arguments;
+        for (const solids::Param& param : schema.params) {
+            const solids::Argument* value = param.fallback ? &*param.fallback : nullptr;
+            for (const auto& [key, argument] : given) {
+                if (key == param.name) value = &argument;
+            }
+            if (value == nullptr) {
+                return fail(ErrorCode::bad_argument,
+                            std::string(name) + ": no " + std::string(param.name));
+            }
+            arguments.push_back(*value);
+        }
+        return csg::primitive(index, arguments);
+    }
+    return fail(ErrorCode::name, "no primitive " + std::string(name));
+}
+
+/// Collects solids and the first error among them, so that the models below read like what they
+/// describe.
+class Builder {
+public:
+    Solid take(Result<Solid> solid) {
+        if (solid) return *std::move(solid);
+        if (!error_) error_ = std::move(solid).error();
+        return {};
+    }
+    Solid block(Vec3 size) { return take(make("block", {{"size", size}, {"center", true}})); }
+    Solid sphere(double r) { return take(make("sphere", {{"r", r}})); }
+    Solid cylinder(double r, double h) {
+        return take(make("cylinder", {{"r", r}, {"h", h}, {"center", true}}));
+    }
+    Solid placed(const Solid& solid, const Affine& map) {
+        return solid ? take(csg::transform(solid, map)) : Solid{};
+    }
+    Solid moved(const Solid& solid, Vec3 by) { return placed(solid, translation(by)); }
+    Solid boolean(csg::Op op, std::vector<Solid> operands) {
+        return error_ ? Solid{} : csg::boolean(op, std::move(operands));
+    }
+    Result<Solid> finished(Solid solid) {
+        if (error_) return fail(*std::move(error_));
+        return solid;
+    }
+
+private:
+    std::optional<Error> error_;
+};
+
+/// A direction, all equally likely.
+Vec3 random_direction(std::mt19937_64& random) {
+    std::uniform_real_distribution<double> number(-1.0, 1.0);
+    for (;;) {
+        const Vec3 v{number(random), number(random), number(random)};
+        const double length = dot(v, v);
+        if (length > 1e-4 && length <= 1.0) return unit(v);
+    }
+}
+
+/// A turn that takes the z axis to the unit vector `to`.
+Affine turned_to(Vec3 to) {
+    Vec3 s;
+    Vec3 t;
+    make_frame(to, s, t);
+    return {{{Vec3{s.x, t.x, to.x}, Vec3{s.y, t.y, to.y}, Vec3{s.z, t.z, to.z}}}, {}};
+}
+
+/// A plate of 100 x 100 x 1 with holes in rows and columns, cut by one union of cylinders.
+Result<Solid> plate(std::size_t holes) {
+    Builder b;
+    std::size_t columns =
+        static_cast<std::size_t>(std::ceil(std::sqrt(static_cast<double>(holes))));
+    while (holes % columns != 0) ++columns;
+    const std::size_t rows = holes / columns;
+    const double dx = 100.0 / static_cast<double>(columns);
+    const double dy = 100.0 / static_cast<double>(rows);
+    const Solid hole = b.cylinder(0.35 * std::min(dx, dy), 2.0);
+    std::vector<Solid> drilled;
+    for (std::size_t i = 0; i < columns; ++i) {
+        for (std::size_t j = 0; j < rows; ++j) {
+            drilled.push_back(b.moved(hole, {(static_cast<double>(i) + 0.5) * dx - 50.0,
+                                             (static_cast<double>(j) + 0.5) * dy - 50.0, 0.0}));
+        }
+    }
+    const Solid sheet = b.block({100, 100, 1});
+    return b.finished(
+        b.boolean(csg::Op::difference, {sheet, b.boolean(csg::Op::unite, std::move(drilled))}));
+}
+
+/// a - (b - (c - ...)): balls on a spiral, each biting the one before it, nested as deep as there
+/// are leaves.
+Result<Solid> alternating(std::size_t leaves) {
+    Builder b;
+    const double n = static_cast<double>(leaves);
+    const double radius = 60.0 / std::sqrt(n);
+    const Solid ball = b.sphere(radius);
+    Solid tail;
+    for (std::size_t i = leaves; i-- > 0;) {
+        // An Archimedean spiral with a step of 0.8 radii along the curve and 1.5 radii from turn to
+        // turn.
+        const double turn = 1.5 * radius / 6.283185307179586;
+        const double angle = std::sqrt(2.0 * 0.8 * radius * static_cast<double>(i + 4) / turn);
+        const Vec3 centre{turn * angle * std::cos(angle), turn * angle * std::sin(angle), 0.0};
+        Solid here = b.moved(ball, centre);
+        tail = tail ? b.boolean(csg::Op::difference, {std::move(here), std::move(tail)})
+                    : std::move(here);
+    }
+    return b.finished(tail);
+}
+
+/// A cube of 80 minus rods that all pass through its middle: every box of the tree overlaps every
+/// other one.
+Result<Solid> hedgehog(std::size_t leaves) {
+    Builder b;
+    std::mt19937_64 random(7);
+    const Solid rod = b.cylinder(25.0 / std::sqrt(static_cast<double>(leaves)), 200.0);
+    std::vector<Solid> rods;
+    for (std::size_t i = 0; i < leaves; ++i)
+        rods.push_back(b.placed(rod, turned_to(random_direction(random))));
+    const Solid cube = b.block({80, 80, 80});
+    return b.finished(
+        b.boolean(csg::Op::difference, {cube, b.boolean(csg::Op::unite, std::move(rods))}));
+}
+
+/// A haystack: the union of long thin rods, mostly at an angle to the axes, where boxes fit worst.
+Result<Solid> needles(std::size_t leaves) {
+    Builder b;
+    std::mt19937_64 random(11);
+    std::uniform_real_distribution<double> place(-30.0, 30.0);
+    const Solid rod = b.cylinder(5.0 / std::sqrt(static_cast<double>(leaves)), 60.0);
+    std::vector<Solid> rods;
+    for (std::size_t i = 0; i < leaves; ++i) {
+        const Affine turn = turned_to(random_direction(random));
+        rods.push_back(
+            b.placed(rod, translation({place(random), place(random), place(random)}) * turn));
+    }
+    return b.finished(b.boolean(csg::Op::unite, std::move(rods)));
+}
+
+scene::Camera camera(Vec3 eye, double angle) {
+    scene::Camera view;
+    view.eye = eye;
+    view.look_at = {};
+    view.angle = angle;
+    return view;
+}
+
+}  // namespace
+
+std::span<const Family> families() {
+    static constexpr std::array<std::size_t, 6> kToMillion{10,     100,     1'000,
+                                                           10'000, 100'000, 1'000'000};
+    static constexpr std::array<std::size_t, 5> kToHundredThousand{10, 100, 1'000, 10'000, 100'000};
+    static constexpr std::array<std::size_t, 3> kToThousand{10, 100, 1'000};
+    static const std::array<Family, 4> kFamilies{
+        Family{"plate", "plate with n holes", plate, camera({30, -70, 110}, 40), kToMillion},
+        Family{"alternating", "a - (b - (c - ...)), n deep", alternating,
+               camera({30, -70, 110}, 60), kToHundredThousand},
+        Family{"hedgehog", "cube minus n rods through one point", hedgehog,
+               camera({90, -130, 100}, 40), kToThousand},
+        Family{"needles", "union of n long thin rods", needles, camera({90, -130, 100}, 30),
+               kToHundredThousand},
+    };
+    return kFamilies;
+}
+
+}  // namespace raymo::bench
