@@ -1,0 +1,264 @@
+#include "raymo/query/emptiness.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <queue>
+#include <string_view>
+
+#include "raymo/query/locate.hpp"
+#include "raymo/trace/tracer.hpp"
+
+namespace raymo::query {
+namespace {
+
+constexpr std::size_t kMaxZones = 2048;
+constexpr std::size_t kMaxCells = 8192;  // cells looked at
+constexpr std::size_t kRayBudget =
+    100'000;                 // rays of the last step, at least one grid of 2 x 2 a zone
+constexpr int kFinest = 16;  // rays across a zone
+
+/// Boxes in the world in which some leaf can matter for the root; together they hold all of the
+/// solid. A union with more operands than there is room for stays one zone.
+class Zones {
+public:
+    Zones(const Graph& graph, Aabb region) : graph_(graph), region_(region) {}
+
+    std::vector<Aabb> of(std::uint32_t root) {
+        push({root, {}, region_});
+        while (!open_.empty()) {
+            const Item item = open_.back();
+            open_.pop_back();
+            const Graph::Node& node = graph_[item.node];
+            if (node.kind == csg::NodeKind::transform) {
+                const Affine& map = csg::as_transform(*node.source).map;
+                push({node.first, item.to_world * map, item.zone});
+            } else if (node.kind == csg::NodeKind::leaf ||
+                       found_.size() + open_.size() + node.count > kMaxZones) {
+                found_.push_back(item.zone);
+            } else {
+                open_boolean(node, item);
+            }
+        }
+        return std::move(found_);
+    }
+
+private:
+    struct Item {
+        std::uint32_t node;
+        Affine to_world;
+        Aabb zone;
+    };
+
+    void push(Item item) {
+        const Aabb& box = graph_[item.node].box;
+        if (box.empty()) return;
+        item.zone = overlap(item.zone, transformed(item.to_world, box));
+        if (!item.zone.empty()) open_.push_back(item);
+    }
+    void open_boolean(const Graph::Node& node, const Item& item) {
+        Aabb zone = item.zone;
+        const std::uint32_t deciding = node.op == csg::Op::unite          ? 0
+                                       : node.op == csg::Op::intersection ? node.count
+                                                                          : 1;
+        for (std::uint32_t i = 0; i < deciding; ++i) {
+            const Aabb& box = graph_[graph_.operand(node.first + i)].box;
+            if (box.empty()) return;
+            zone = overlap(zone, transformed(item.to_world, box));
+        }
+        if (zone.empty()) return;
+        for (std::uint32_t i = 0; i < node.count; ++i) {
+            push({graph_.operand(node.first + i), item.to_world, zone});
+        }
+    }
+
+    const Graph& graph_;
+    Aabb region_;
+    std::vector<Item> open_;
+    std::vector<Aabb> found_;
+};
+
+/// Rays that start outside of the whole model.
+class Prober {
+public:
+    explicit Prober(const trace::CompiledScene& scene) : scene_(scene), tracer_(scene) {}
+
+    /// True when one of n x n rays in each of three skew directions through the box meets the
+    /// solid.
+    bool meets(const Aabb& box, int n) {
+        const Vec3 size = box.size();
+        for (int axis = 0; axis < 3; ++axis) {
+            const int b = (axis + 1) % 3;
+            const int c = (axis + 2) % 3;
+            for (int i = 0; i < n; ++i) {
+                for (int j = 0; j < n; ++j) {
+                    // From one face of the box to the opposite one, not quite parallel to its
+                    // edges.
+                    Vec3 from = box.lo;
+                    Vec3 to = box.lo;
+                    to[axis] += size[axis];
+                    const double u = (static_cast<double>(i) + 0.4637) / n;
+                    const double v = (static_cast<double>(j) + 0.5381) / n;
+                    from[b] += size[b] * u;
+                    from[c] += size[c] * v;
+                    to[b] += size[b] * (u + 0.0713 * (0.5 - u));
+                    to[c] += size[c] * (v + 0.0291 * (0.5 - v));
+                    if (shoot(from, to)) return true;
+                }
+            }
+        }
+        return false;
+    }
+
+private:
+    bool shoot(Vec3 from, Vec3 to) {
+        Vec3 d = to - from;
+        if (max_norm(d) == 0.0) d = {0.321, 0.782, -0.533};
+        d = unit(d);
+        const Aabb& all = scene_.bounds();
+        const double back = 2.0 * (max_norm(all.size()) + max_norm(from - all.centre()));
+        trace::RayQuery query;
+        query.ray = {from - d * back, d};
+        trace::Hit hit;
+        return tracer_.first_hit(query, hit);
+    }
+
+    const trace::CompiledScene& scene_;
+    trace::Tracer tracer_;
+};
+
+bool stopped(Progress* progress) { return progress != nullptr && progress->cancelled(); }
+Failure cancelled() { return fail(ErrorCode::cancelled, "interrupted"); }
+
+enum class Verdict : std::uint8_t { empty, present, open };
+
+/// Halves zones, largest cells first; leaves in `cells` what is not decided.
+Verdict halve(Locator& locator, std::vector<Aabb>& cells, Progress* progress) {
+    const auto smaller = [](const Aabb& a, const Aabb& b) {
+        return max_norm(a.size()) < max_norm(b.size());
+    };
+    std::priority_queue<Aabb, std::vector<Aabb>, decltype(smaller)> open(smaller, std::move(cells));
+    cells.clear();
+    for (std::size_t looked = 0; !open.empty() && looked < kMaxCells && !stopped(progress);
+         ++looked) {
+        const Aabb cell = open.top();
+        open.pop();
+        const Where w = locator.where_all(cell.centre(), cell.size() * 0.5);
+        const bool has_room =
+            cell.lo.x < cell.hi.x && cell.lo.y < cell.hi.y && cell.lo.z < cell.hi.z;
+        if (w == Where::in && has_room) return Verdict::present;
+        if (w == Where::out) continue;
+        const Vec3 size = cell.size();
+        const int axis = size.x >= size.y && size.x >= size.z ? 0 : (size.y >= size.z ? 1 : 2);
+        const double half = cell.centre()[axis];
+        if (!(cell.lo[axis] < half && half < cell.hi[axis])) {
+            cells.push_back(cell);
+            continue;
+        }
+        Aabb low = cell;
+        Aabb high = cell;
+        low.hi[axis] = half;
+        high.lo[axis] = half;
+        open.push(low);
+        open.push(high);
+    }
+    for (; !open.empty(); open.pop()) cells.push_back(open.top());
+    return cells.empty() ? Verdict::empty : Verdict::open;
+}
+
+Result<bool> search(Locator& locator, const trace::CompiledScene& compiled, Progress* progress) {
+    if (compiled.bounds().empty()) return true;
+    Prober prober(compiled);
+    if (prober.meets(compiled.bounds(), 4)) return false;
+
+    const std::vector<Aabb> zones = Zones(locator.graph(), compiled.bounds()).of(locator.root());
+    std::vector<Aabb> cells = zones;
+    switch (halve(locator, cells, progress)) {
+        case Verdict::present:
+            return false;
+        case Verdict::empty:
+            return true;
+        case Verdict::open:
+            break;
+    }
+    std::size_t rays = 0;
+    for (int n = 2; n <= kFinest; n *= 2) {
+        for (const Aabb& zone : zones) {
+            if (stopped(progress)) return cancelled();
+            if (prober.meets(zone, n)) return false;
+            rays += 3 * static_cast<std::size_t>(n) * static_cast<std::size_t>(n);
+        }
+        if (rays > kRayBudget) break;
+    }
+    for (const Aabb& cell : cells) {
+        if (stopped(progress)) return cancelled();
+        if (prober.meets(cell, 1)) return false;
+    }
+    return true;
+}
+
+/// A block about the origin, as large as the finite things in an unbounded solid call for.
+Result<csg::Solid> clip(const csg::Solid& solid) {
+    double size = 1.0;
+    std::vector<const csg::Node*> open{&solid.node()};
+    const auto include = [&size](const Vec3& v) {
+        if (is_finite(v)) size = std::max(size, max_norm(v));
+    };
+    for (std::size_t seen = 0; !open.empty() && seen < 100'000; ++seen) {
+        const csg::Node& node = *open.back();
+        open.pop_back();
+        if (node.kind == csg::NodeKind::leaf) {
+            const solids::AnySolid& leaf = csg::as_leaf(node).solid;
+            const Aabb box =
+                std::visit([&](const auto& k) { return k.bounds(leaf.to_object); }, leaf.kernel);
+            include(box.lo);
+            include(box.hi);
+            include(leaf.to_object.offset);
+        } else if (node.kind == csg::NodeKind::transform) {
+            include(csg::as_transform(node).map.offset);
+            open.push_back(&csg::as_transform(node).child.node());
+        } else if (node.kind == csg::NodeKind::paint) {
+            open.push_back(&csg::as_paint(node).child.node());
+        } else {
+            for (const csg::Solid& s : csg::as_boolean(node).operands) open.push_back(&s.node());
+        }
+    }
+    const double half = 1000.0 * size;
+    const auto kinds = solids::inventory();
+    for (std::uint32_t i = 0; i < kinds.size(); ++i) {
+        if (kinds[i].schema->name != std::string_view("sphere")) continue;
+        const solids::Argument radius = half;
+        Result<csg::Solid> ball = csg::primitive(i, std::span(&radius, 1));
+        if (!ball) return ball;
+        return csg::boolean(csg::Op::intersection, {solid, *std::move(ball)});
+    }
+    return solid;
+}
+
+}  // namespace
+
+Result<bool> is_empty(const csg::Solid& solid, Progress* progress) {
+    const Aabb box = csg::bounds(solid);
+    if (box.empty()) return true;
+    csg::Solid finite = solid;
+    if (!box.bounded()) {
+        Result<csg::Solid> clipped = clip(solid);
+        if (!clipped) return fail(clipped.error());
+        finite = *std::move(clipped);
+    }
+    scene::Scene scene;
+    scene.parts.push_back({"", finite, {}});
+    const Result<trace::CompiledScene> compiled = trace::compile(scene, progress);
+    if (!compiled) return fail(compiled.error());
+    Locator locator(finite);
+    return search(locator, *compiled, progress);
+}
+
+Result<bool> is_empty(const scene::Scene& scene, const trace::CompiledScene& compiled,
+                      Progress* progress) {
+    if (compiled.bounds().empty()) return true;
+    if (Prober(compiled).meets(compiled.bounds(), 4)) return false;
+    Locator locator(scene);
+    return search(locator, compiled, progress);
+}
+
+}  // namespace raymo::query

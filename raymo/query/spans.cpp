@@ -1,0 +1,48 @@
+#include "raymo/query/spans.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace raymo::query {
+namespace {
+
+NamedEnd named(const trace::CompiledScene& scene, const trace::Tracer& tracer,
+               const trace::Hit& hit) {
+    NamedEnd end;
+    end.t = hit.t;
+    end.point = hit.point;
+    end.on_surface = std::isfinite(hit.t) && hit.surface.leaf != trace::SurfaceId::kNone;
+    if (!end.on_surface) return end;
+    end.normal = hit.normal;
+    const std::string& name = scene.material(hit.material).name;
+    end.material = hit.material == csg::kNoMaterial || name.empty() ? std::string_view("default")
+                                                                    : std::string_view(name);
+    end.leaf = tracer.leaf_info(hit.surface);
+    end.face = tracer.face_name(hit.surface);
+    return end;
+}
+
+}  // namespace
+
+void named_spans(const trace::CompiledScene& scene, trace::Tracer& tracer, const Ray& ray,
+                 const SpanOptions& options, std::vector<NamedSpan>& out) {
+    out.clear();
+    std::vector<std::vector<trace::PartSpan>> by_part;
+    tracer.spans(ray, by_part);
+    for (std::size_t part = 0; part < by_part.size(); ++part) {
+        if (options.part != SpanOptions::kAllParts && part != options.part) continue;
+        for (const trace::PartSpan& span : by_part[part]) {
+            if (options.from_origin && span.exit.t <= 0.0) continue;
+            NamedSpan s{part, named(scene, tracer, span.enter), named(scene, tracer, span.exit)};
+            if (options.from_origin && s.enter.t < 0.0) {
+                s.enter = NamedEnd{};
+                s.enter.point = ray.origin;
+            }
+            out.push_back(s);
+        }
+    }
+    std::stable_sort(out.begin(), out.end(),
+                     [](const NamedSpan& a, const NamedSpan& b) { return a.enter.t < b.enter.t; });
+}
+
+}  // namespace raymo::query
