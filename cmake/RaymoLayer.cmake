@@ -12,6 +12,8 @@ function(raymo_layer name)
   set(tests ${sources})
   list(FILTER tests INCLUDE REGEX "_test\\.cpp$")
   list(FILTER sources EXCLUDE REGEX "_(test|laws)\\.cpp$")
+  # Highway compiles *-inl.hpp once per instruction set, within another file.
+  list(FILTER headers EXCLUDE REGEX "-inl\\.hpp$")
 
   set(scope PUBLIC)
   if(sources)
