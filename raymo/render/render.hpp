@@ -22,13 +22,15 @@ struct Options {
     int width = 800;
     int height = 600;
     Quality quality = Quality::final;
-    int samples = 0;         ///< uniform anti-aliasing with this many samples a pixel; 0: what the quality asks for
-    int max_depth = 8;       ///< longest chain of reflections and refractions
+    int samples =
+        0;  ///< uniform anti-aliasing with this many samples a pixel; 0: what the quality asks for
+    int max_depth = 8;              ///< longest chain of reflections and refractions
     double min_weight = 1.0 / 512;  ///< a ray that contributes less is not traced
     std::uint64_t seed = 1;
 };
 
-/// Everything a picture needs besides the solids: one camera, the lights that shine, ambient and background.
+/// Everything a picture needs besides the solids: one camera, the lights that shine, ambient and
+/// background.
 struct Look {
     scene::Camera camera;
     std::vector<scene::Light> lights;
@@ -36,15 +38,18 @@ struct Look {
     scene::Background background;
 };
 
-/// The scene's own camera `view` (by index), lights and background, or the defaults where it has none.
-[[nodiscard]] Look look_of(const scene::Scene& scene, const Aabb& bounds, double aspect, std::size_t view = 0);
+/// The scene's own camera `view` (by index), lights and background, or the defaults where it has
+/// none.
+[[nodiscard]] Look look_of(const scene::Scene& scene, const Aabb& bounds, double aspect,
+                           std::size_t view = 0);
 
 struct Stats {
     trace::RayCounts rays;
 };
 
 /// Same picture, bit for bit, for any executor and any instruction set. Error: cancelled.
-[[nodiscard]] Result<image::Film> render(const trace::CompiledScene& scene, const Look& look, const Options& options,
-                                         Executor& executor, Progress& progress, Stats* stats = nullptr);
+[[nodiscard]] Result<image::Film> render(const trace::CompiledScene& scene, const Look& look,
+                                         const Options& options, Executor& executor,
+                                         Progress& progress, Stats* stats = nullptr);
 
 }  // namespace raymo::render

@@ -1,0 +1,126 @@
+#include "raymo/render/light_model.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace raymo::render {
+namespace {
+
+double clamp01(double x) { return x > 0.0 ? (x < 1.0 ? x : 1.0) : 0.0; }
+Colour clamp01(Colour c) { return {clamp01(c.x), clamp01(c.y), clamp01(c.z)}; }
+
+/// 2 pi times the integral of exp(-c2^2 a^2) cos a sin a over 0 <= a <= pi/2, by Simpson's rule
+/// over the part where the integrand is not negligible (beyond 6.1 / c2 the factor is below 2^-53).
+double gaussian_integral(double c2_squared) {
+    const double end = std::min(std::numbers::pi / 2.0, 6.1 / std::sqrt(c2_squared));
+    constexpr int kSteps = 128;
+    double sum = 0.0;
+    for (int i = 0; i <= kSteps; ++i) {
+        const double a = end * i / kSteps;
+        const double weight = i == 0 || i == kSteps ? 1.0 : (i % 2 == 1 ? 4.0 : 2.0);
+        sum += weight * std::exp(-c2_squared * a * a) * std::sin(a) * std::cos(a);
+    }
+    return 2.0 * std::numbers::pi * sum * end / (3.0 * kSteps);
+}
+
+}  // namespace
+
+double fresnel(double cosine, double index) {
+    const double g2 = index * index - 1.0 + cosine * cosine;
+    if (g2 <= 0.0) return 1.0;
+    const double g = std::sqrt(g2);
+    const double sum = g + cosine;
+    const double difference = g - cosine;
+    const double across = difference / sum;
+    const double ratio = (cosine * sum - 1.0) / (cosine * difference + 1.0);
+    return 0.5 * across * across * (1.0 + ratio * ratio);
+}
+
+double index_of_reflectance(double reflectance) {
+    const double root = std::sqrt(reflectance);
+    return (1.0 + root) / (1.0 - root);
+}
+
+Interface::Interface(double at_normal_incidence) : value_(clamp01(at_normal_incidence)) {
+    // So near to 1 that the growth can no longer be seen, and the index no longer computed well.
+    constexpr double kPerfect = 0.9999;
+    fixed_ = value_ == 0.0 || value_ >= kPerfect;
+    if (!fixed_) index_ = index_of_reflectance(value_);
+}
+
+Facets::Facets(scene::Facets kind, double roughness) : kind_(kind) {
+    // Sharper than this a highlight is thinner than any pixel, and the density overflows.
+    constexpr double kSharpest = 0.004;
+    const double half = std::max(clamp01(roughness), kSharpest) * std::numbers::pi / 4.0;
+    const double c = std::cos(half);
+    const double s = std::sin(half);
+    if (kind == scene::Facets::trowbridge_reitz) {
+        const double c3_squared = s * s / (std::numbers::sqrt2 - c * c);
+        shape_ = c3_squared - 1.0;
+        scale_ = c3_squared / std::numbers::pi;
+    } else if (kind == scene::Facets::gaussian) {
+        shape_ = std::numbers::ln2 / (half * half);
+        scale_ = 1.0 / gaussian_integral(shape_);
+    } else {
+        shape_ =
+            -std::numbers::ln2 / std::log1p(-2.0 * std::sin(half / 2.0) * std::sin(half / 2.0));
+        scale_ = (shape_ + 2.0) / (2.0 * std::numbers::pi);
+    }
+}
+
+double Facets::slow_density(double cosine) const {
+    if (kind_ == scene::Facets::gaussian) {
+        const double angle = std::acos(std::min(cosine, 1.0));
+        return scale_ * std::exp(-shape_ * angle * angle);
+    }
+    return scale_ * std::exp2(shape_ * std::log2(std::min(cosine, 1.0)));
+}
+
+Surface::Surface(const scene::Material& material)
+    : specular(material.specular),
+      mirror(material.mirror),
+      facets(material.facets, material.roughness) {
+    const Colour color = clamp01(material.color);
+    transmission = clamp01(material.transmission);
+    opaque_part = 1.0 - transmission;
+    transparent = transmission > 0.0;
+    body = color * (clamp01(material.diffuse) * opaque_part);
+    const double metal = clamp01(material.metal);
+    tinted = metal > 0.0;
+    tint = Colour{1, 1, 1} * (1.0 - metal) + color * metal;
+    least_mirror = transparent ? clamp01(material.mirror) : 0.0;
+    index = transparent ? std::max(material.ior, 1.0) : 1.0;
+    absorption = max(material.absorption, Vec3{});
+    absorbs = transparent && max_norm(absorption) > 0.0;
+}
+
+Colour transmittance(const Surface& medium, double length) {
+    if (!medium.absorbs) return {1, 1, 1};
+    const Vec3 a = medium.absorption;
+    // 0 * infinity is no absorption.
+    const auto part = [&](double k) { return k > 0.0 ? std::exp(-k * length) : 1.0; };
+    return {part(a.x), part(a.y), part(a.z)};
+}
+
+Colour facet_term(const Surface& surface, double nv, double nl, double vl) {
+    const double vh = std::sqrt(std::max(0.0, 0.5 * (1.0 + vl)));
+    if (vh <= 0.0) return {};
+    const double nh = std::min(1.0, (nl + nv) / (2.0 * vh));
+    const double f = surface.specular(vh);
+    const double rest =
+        std::numbers::pi * surface.facets.density(nh) * facet_geometry(nh, nv, nl, vh);
+    return surface.reflected(f, surface.specular.value()) * rest;
+}
+
+bool refracted_direction(Vec3 d, Vec3 n, double index, Vec3& out) {
+    const double cosine = -dot(d, n);
+    const double g2 = index * index - 1.0 + cosine * cosine;
+    if (!(g2 > 0.0)) return false;
+    out = (d + n * (cosine - std::sqrt(g2))) * (1.0 / index);
+    // Unit up to rounding, which repeated refraction would add up.
+    out = out * (1.5 - 0.5 * dot(out, out));
+    return true;
+}
+
+}  // namespace raymo::render

@@ -1,0 +1,136 @@
+// What a surface does with light: facets, Fresnel's equations, body colour [Wijk86 2.6], [Blinn77].
+//
+// A surface is an interface over a body. The interface is a field of tiny mirrors (facets) whose
+// normals h scatter about the surface normal n. With unit vectors to the viewer v and to the light
+// l, and h halfway between them, the facets reflect
+//     f = F(h.l) D(n.h) G / (4 n.l n.v)                                                     [1/sr]
+// where
+//     D  density of facet normals, scaled so that the facets' projections cover the surface:
+//     integral of D n.h = 1 G  = min(1, 2 n.h n.v / v.h, 2 n.h n.l / v.h), facets hiding each other
+//     in symmetric grooves F  Fresnel's reflectance of one facet, exact for a dielectric.
+// `specular` and `mirror` state reflectances at normal incidence; the index of refraction that has
+// this reflectance gives its growth towards grazing. A metal's reflectance starts from its colour
+// instead of white. What the interface lets pass, going in and again coming out, meets the body:
+// diffuse reflection, or transmission. Why: docs/decisions/light-model.md.
+#pragma once
+
+#include <cstdint>
+
+#include "raymo/scene/material.hpp"
+
+namespace raymo::render {
+
+using scene::Colour;
+
+/// Part of unpolarised light that a smooth interface reflects, 0..1. `cosine` >= 0 of the angle of
+/// incidence; `index` = (index behind) / (index before), > 0. 1 beyond the critical angle.
+[[nodiscard]] double fresnel(double cosine, double index);
+
+/// The index of refraction, >= 1, of the dielectric that reflects the part `reflectance`, 0 <=
+/// reflectance < 1, at normal incidence: the inverse of fresnel(1, index).
+[[nodiscard]] double index_of_reflectance(double reflectance);
+
+/// Fresnel reflectance that is stated by its value at normal incidence.
+class Interface {
+public:
+    Interface() = default;
+    explicit Interface(double at_normal_incidence);
+    [[nodiscard]] double operator()(double cosine) const {
+        return fixed_ ? value_ : fresnel(cosine, index_);
+    }
+    /// Largest value: 0 for no interface at all.
+    [[nodiscard]] bool none() const { return fixed_ && value_ == 0.0; }
+    /// At normal incidence.
+    [[nodiscard]] double value() const { return value_; }
+
+private:
+    double value_ = 0.0;
+    double index_ = 1.0;
+    bool fixed_ = true;  ///< no growth towards grazing: nothing is reflected, or everything
+};
+
+/// Distribution of the facets' normals. `roughness` 0..1 sets the angle, up to 45 degrees, at which
+/// the density has fallen to half [Blinn77]; all three distributions have it in common, so that
+/// they can be exchanged.
+class Facets {
+public:
+    Facets() : Facets(scene::Facets::trowbridge_reitz, 0.35) {}
+    Facets(scene::Facets kind, double roughness);
+    /// D [1/sr] for the cosine n.h > 0. Normalised: the integral of D cosine over the hemisphere
+    /// is 1.
+    [[nodiscard]] double density(double cosine) const {
+        if (kind_ == scene::Facets::trowbridge_reitz) {
+            const double s = cosine * cosine * shape_ + 1.0;
+            return scale_ / (s * s);
+        }
+        return slow_density(cosine);
+    }
+
+private:
+    [[nodiscard]] double slow_density(double cosine) const;
+
+    scene::Facets kind_;
+    double shape_;  ///< Trowbridge-Reitz: c3^2 - 1; Gaussian: c2^2; Phong: c1, in Blinn's letters
+    double scale_;
+};
+
+/// G / (4 n.l n.v), the geometric part of the facet term, finite also at grazing angles. All
+/// cosines > 0.
+[[nodiscard]] inline double facet_geometry(double nh, double nv, double nl, double vh) {
+    // min(1, 2 nh nv / vh, 2 nh nl / vh) / (4 nl nv): the least of the three, with the division
+    // carried out in each.
+    const double lesser = nv < nl ? nv : nl;
+    const double greater = nv < nl ? nl : nv;
+    const double open = 0.25 / (lesser * greater);
+    const double grooved = 0.5 * nh / (vh * greater);
+    return grooved < open ? grooved : open;
+}
+
+/// A material with all that does not depend on the ray worked out.
+struct Surface {
+    Colour body;         ///< of diffuse reflection, when all light reaches it
+    Interface specular;  ///< of the facets, for the light of lamps and of the surroundings
+    Interface mirror;    ///< for mirror images; unused where transparent
+    Facets facets;
+    Colour tint{
+        1, 1,
+        1};  ///< of what the interface reflects at normal incidence: white, or a metal's colour
+    bool tinted = false;
+    bool transparent = false;
+    double transmission = 0.0;
+    double opaque_part = 1.0;  ///< 1 - transmission
+    double least_mirror =
+        0.0;  ///< transparent: reflectance at normal incidence that the material asks for
+    double index = 1.0;  ///< of refraction
+    Vec3 absorption;     ///< [1/mm]
+    bool absorbs = false;
+
+    Surface() = default;
+    explicit Surface(const scene::Material& material);
+
+    /// Colour of an interface that reflects `reflectance` there, `normal_value` at normal
+    /// incidence.
+    [[nodiscard]] Colour reflected(double reflectance, double normal_value) const {
+        if (!tinted || normal_value >= 1.0) return (tinted ? tint : Colour{1, 1, 1}) * reflectance;
+        // From tint * value at normal incidence to white at grazing.
+        const double growth = (reflectance - normal_value) / (1.0 - normal_value);
+        return tint * (normal_value * (1.0 - growth)) + Colour{growth, growth, growth};
+    }
+};
+
+/// What is left of white light after `length` mm inside.
+[[nodiscard]] Colour transmittance(const Surface& medium, double length);
+
+/// Light reflected by facets for one unit of irradiance on a surface across the light: radiance is
+/// this times irradiance times n.l. Times pi, as a light's power is that of a white diffuse surface
+/// facing it.
+[[nodiscard]] Colour facet_term(const Surface& surface, double nv, double nl, double vl);
+
+/// Direction of the mirror image; `d` towards the surface, both unit, n.d < 0.
+[[nodiscard]] inline Vec3 reflected_direction(Vec3 d, Vec3 n) { return d - n * (2.0 * dot(d, n)); }
+
+/// Direction behind an interface (Snell's law); n.d < 0, `index` as in fresnel(). False: total
+/// reflection.
+[[nodiscard]] bool refracted_direction(Vec3 d, Vec3 n, double index, Vec3& out);
+
+}  // namespace raymo::render

@@ -1,0 +1,327 @@
+#include "raymo/render/ray_shader.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace raymo::render {
+namespace {
+
+using trace::Hit;
+using trace::RayQuery;
+using trace::SurfaceId;
+
+/// Longest chain of reflections and refractions, and least weight, that options may ask for: a
+/// picture is finished whatever they say. The weights of rays of one depth add up to at most 1, so
+/// at most kMostDepth / kLeastWeight rays descend from one.
+constexpr int kMostDepth = 64;
+constexpr double kLeastWeight = 0x1p-16;
+
+/// Light through less than this is no light.
+constexpr double kDark = 0x1p-12;
+
+/// Rays from secondary hits use a part of an area light's samples.
+constexpr int kSecondaryShare = 4;
+
+std::uint32_t face_of(const Hit& hit) {
+    std::uint64_t x =
+        mix(hit.surface.leaf + (static_cast<std::uint64_t>(hit.surface.instance) << 32U));
+    x = mix(x + hit.surface.face + (static_cast<std::uint64_t>(hit.part) << 20U) +
+            (hit.entering ? 1ULL << 19U : 0U));
+    return static_cast<std::uint32_t>(x) | 1U;
+}
+
+Signature signature_of(const Hit& hit) {
+    const auto scaled = [](double x) { return static_cast<std::int8_t>(x * 127.0); };
+    return {face_of(hit), {scaled(hit.normal.x), scaled(hit.normal.y), scaled(hit.normal.z)}};
+}
+
+RayQuery from_surface(const Hit& hit, Vec3 direction) {
+    RayQuery query;
+    query.ray = {hit.point, direction};
+    query.start = hit.surface;
+    query.start_error = hit.point_error;
+    return query;
+}
+
+}  // namespace
+
+Stage::Stage(const trace::CompiledScene& compiled, const Look& look, const Options& options)
+    : scene(&compiled),
+      lamps(prepared(look.lights, options.quality != Quality::final)),
+      ambient(look.ambient),
+      background(look.background),
+      max_depth(options.quality == Quality::draft ? 0
+                                                  : std::clamp(options.max_depth, 0, kMostDepth)),
+      min_weight(std::max(options.min_weight, kLeastWeight)) {}
+
+RayShader::RayShader(const Stage& stage) : stage_(&stage), tracer_(*stage.scene) {
+    pending_.reserve(64);
+}
+
+trace::RayCounts RayShader::counts() const {
+    trace::RayCounts counts = tracer_.counts();
+    counts.primary = counts_.primary;
+    counts.shadow = counts_.shadow;
+    counts.secondary = counts_.secondary;
+    return counts;
+}
+
+const Surface& RayShader::surface(csg::MaterialId id) {
+    std::unique_ptr<const Surface>* slot = &unpainted_;
+    if (id != csg::kNoMaterial) {
+        if (id >= surfaces_.size()) surfaces_.resize(static_cast<std::size_t>(id) + 1);
+        slot = &surfaces_[id];
+    }
+    if (!*slot) *slot = std::make_unique<const Surface>(stage_->scene->material(id));
+    return **slot;
+}
+
+const Surface& RayShader::medium(csg::MaterialId id) {
+    return id == Hit::kAir ? air_ : surface(id);
+}
+
+void RayShader::answer(std::span<const EyeRay> rays, Answer* answers) {
+    eyes_ = rays;
+    answers_ = answers;
+    counts_.primary += rays.size();
+    std::array<RayQuery, kPacket> queries;
+    std::array<Hit, kPacket> hits;
+    std::array<bool, kPacket> found{};
+    std::array<Path, kPacket> paths;
+    for (std::size_t i = 0; i < rays.size(); ++i) queries[i].ray = rays[i].ray;
+    tracer_.first_hits({queries.data(), rays.size()}, hits.data(), found.data());
+
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        events_[i] = 0;
+        answers[i] = {};
+        if (!found[i]) {
+            answers[i].light = stage_->behind(rays[i].ray.direction);
+            continue;
+        }
+        answers[i].signature = signature_of(hits[i]);
+        if (count != i) {
+            queries[count] = queries[i];
+            hits[count] = hits[i];
+        }
+        paths[count] = {{1, 1, 1}, 0, i};
+        ++count;
+    }
+    if (count == 0) return;
+    shade(count, queries.data(), hits.data(), paths.data());
+
+    while (!pending_.empty()) {
+        const Pending next = pending_.back();
+        pending_.pop_back();
+        ++counts_.secondary;
+        if (tracer_.first_hit(next.query, hits[0])) {
+            shade(1, &next.query, hits.data(), &next.path);
+        } else {
+            answers[next.path.lane].light +=
+                next.path.weight * stage_->behind(next.query.ray.direction);
+        }
+    }
+}
+
+void RayShader::shade(std::size_t count, const RayQuery* queries, const Hit* hits,
+                      const Path* paths) {
+    std::array<Spot, kPacket> spots;
+    std::array<Path, kPacket> arrived;
+    for (std::size_t i = 0; i < count; ++i) {
+        arrived[i] = paths[i];
+        spots[i] = approach(queries[i], hits[i], arrived[i]);
+    }
+    for (const Lamp& lamp : stage_->lamps) {
+        if (!lamp.is_area()) {
+            light_directly(lamp, count, queries, hits, spots.data());
+            continue;
+        }
+        for (std::size_t i = 0; i < count; ++i) {
+            if (spots[i].lit) light_softly(lamp, queries[i], hits[i], arrived[i], spots[i]);
+        }
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+        answers_[arrived[i].lane].light += arrived[i].weight * spots[i].light;
+    }
+}
+
+/// All of a hit but the lamps: absorption on the way, ambient light, and the rays that go on from
+/// here.
+RayShader::Spot RayShader::approach(const RayQuery& query, const Hit& hit, Path& path) {
+    const Surface* material = &surface(hit.material);
+    double index = 1.0;
+    if (stage_->scene->has_transparency()) {
+        const Surface& before = medium(hit.medium_before);
+        if (before.absorbs) path.weight = path.weight * transmittance(before, hit.t);
+        if (material->transparent) {
+            const Surface& after = medium(hit.medium_after);
+            // Where something opaque starts right behind a transparent surface, that is what is
+            // seen.
+            if (hit.medium_after != Hit::kAir && !after.transparent) {
+                material = &after;
+            } else {
+                index = after.index / before.index;
+            }
+        }
+    }
+
+    Spot spot;
+    spot.surface = material;
+    spot.normal = hit.entering ? hit.normal : -hit.normal;
+    // Rounding may put a surface seen edge-on on the wrong side.
+    spot.nv = std::max(-dot(spot.normal, query.ray.direction), 1e-9);
+    const double facets = material->specular(spot.nv);
+    const double mirror =
+        material->transparent
+            ? std::max(fresnel(spot.nv, index), index == 1.0 ? 0.0 : material->least_mirror)
+            : material->mirror(spot.nv);
+    spot.body = material->body * ((1.0 - facets) * (1.0 - mirror));
+    spot.light = spot.body * stage_->ambient;
+    if (facets > mirror) {
+        const double rest = (facets - mirror) * material->opaque_part;
+        spot.light += stage_->ambient * material->reflected(facets, material->specular.value()) *
+                      (rest / facets);
+    }
+    spot.lit = !material->transparent || hit.entering;
+
+    if (mirror > 0.0) {
+        const double normal_value =
+            material->transparent ? fresnel(1.0, index) : material->mirror.value();
+        const Colour part = mirror >= 1.0
+                                ? (material->transparent ? Colour{1, 1, 1} : material->tint)
+                                : material->reflected(mirror, normal_value);
+        spawn(hit, reflected_direction(query.ray.direction, spot.normal), path, part);
+    }
+    if (material->transparent && mirror < 1.0) {
+        Vec3 direction;
+        if (refracted_direction(query.ray.direction, spot.normal, index, direction)) {
+            const double part = material->transmission * (1.0 - mirror);
+            spawn(hit, direction, path, {part, part, part});
+        }
+    }
+    return spot;
+}
+
+/// Lets a ray go on, or puts ambient light in the place of what it would bring.
+void RayShader::spawn(const Hit& hit, Vec3 direction, const Path& path, Colour weight) {
+    const Colour total = path.weight * weight;
+    if (path.depth >= stage_->max_depth || max_norm(total) < stage_->min_weight) {
+        answers_[path.lane].light += total * stage_->ambient;
+        return;
+    }
+    pending_.push_back({from_surface(hit, direction), {total, path.depth + 1, path.lane}});
+}
+
+void RayShader::light_directly(const Lamp& lamp, std::size_t count, const RayQuery* queries,
+                               const Hit* hits, Spot* spots) {
+    std::array<RayQuery, kPacket> shadows;
+    std::array<Arrival, kPacket> arrivals;
+    std::array<double, kPacket> nl;
+    std::array<std::size_t, kPacket> which;
+    std::array<bool, kPacket> blocked{};
+    std::size_t rays = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+        if (!spots[i].lit || !lamp.arrive(hits[i].point, {0.5, 0.5}, arrivals[rays])) continue;
+        nl[rays] = dot(spots[i].normal, arrivals[rays].direction);
+        if (nl[rays] <= 0.0) continue;
+        shadows[rays] = from_surface(hits[i], arrivals[rays].direction);
+        shadows[rays].t_max = arrivals[rays].distance;
+        which[rays] = i;
+        ++rays;
+    }
+    if (rays == 0) return;
+    if (lamp.shadows()) {
+        counts_.shadow += rays;
+        tracer_.occluded({shadows.data(), rays}, blocked.data());
+    }
+    for (std::size_t r = 0; r < rays; ++r) {
+        if (blocked[r]) continue;
+        const std::size_t i = which[r];
+        if (!lamp.shadows()) shadows[r].t_max = 0.0;
+        add_light(queries[i], hits[i], arrivals[r], nl[r], 1.0, shadows[r], spots[i]);
+    }
+}
+
+void RayShader::light_softly(const Lamp& lamp, const RayQuery& query, const Hit& hit,
+                             const Path& path, Spot& spot) {
+    const EyeRay& eye = eyes_[path.lane];
+    const auto share = static_cast<std::uint32_t>(eye.samples) *
+                       static_cast<std::uint32_t>(path.depth > 0 ? kSecondaryShare : 1);
+    const std::uint32_t samples =
+        std::max((static_cast<std::uint32_t>(lamp.samples()) + share - 1) / share, 1U);
+    // Every hit and lamp has its own set of points, of which the pixel's samples take their turns.
+    const std::uint64_t set =
+        mix(eye.seed + (static_cast<std::uint64_t>(events_[path.lane]++) << 40U) + 1);
+
+    for (std::uint32_t first = 0; first < samples; first += kPacket) {
+        const std::uint32_t last = std::min<std::uint32_t>(first + kPacket, samples);
+        std::array<RayQuery, kPacket> shadows;
+        std::array<Arrival, kPacket> arrivals;
+        std::array<double, kPacket> nl;
+        std::array<bool, kPacket> blocked{};
+        std::size_t rays = 0;
+        for (std::uint32_t k = first; k < last; ++k) {
+            const Point2 place = sample_point(eye.sample * samples + k, set);
+            if (!lamp.arrive(hit.point, place, arrivals[rays])) continue;
+            nl[rays] = dot(spot.normal, arrivals[rays].direction);
+            if (nl[rays] <= 0.0) continue;
+            shadows[rays] = from_surface(hit, arrivals[rays].direction);
+            shadows[rays].t_max = arrivals[rays].distance;
+            ++rays;
+        }
+        if (rays == 0) continue;
+        if (lamp.shadows()) {
+            counts_.shadow += rays;
+            tracer_.occluded({shadows.data(), rays}, blocked.data());
+        }
+        for (std::size_t r = 0; r < rays; ++r) {
+            if (blocked[r]) continue;
+            if (!lamp.shadows()) shadows[r].t_max = 0.0;
+            add_light(query, hit, arrivals[r], nl[r], 1.0 / samples, shadows[r], spot);
+        }
+    }
+}
+
+/// Adds what an unhidden lamp brings. `shadow` is the ray to it (t_max 0: nothing filters the
+/// light).
+void RayShader::add_light(const RayQuery& query, const Hit& hit, const Arrival& arrival, double nl,
+                          double part, const RayQuery& shadow, Spot& spot) {
+    Colour power = arrival.power * (part * nl);
+    if (stage_->scene->has_transparency() && shadow.t_max > 0.0) {
+        power = power * filtered(shadow, hit.medium_before);
+    }
+    const Surface& material = *spot.surface;
+    if (material.specular.none()) {
+        spot.light += power * spot.body;
+        return;
+    }
+    const double vl = -dot(query.ray.direction, arrival.direction);
+    spot.light +=
+        power * (spot.body * (1.0 - material.specular(nl)) + facet_term(material, spot.nv, nl, vl));
+}
+
+/// What transparent parts on the way to a lamp leave of its light. It goes straight on, as bending
+/// would leave the lamp aside [Whitted80]. `at` is the medium in which the ray starts.
+Colour RayShader::filtered(RayQuery shadow, csg::MaterialId at) {
+    Colour left{1, 1, 1};
+    Hit hit;
+    for (;;) {
+        ++counts_.shadow;
+        if (!tracer_.first_hit(shadow, hit)) break;
+        left = left * transmittance(medium(hit.medium_before), hit.t);
+        const Surface& material = surface(hit.material);
+        if (!material.transparent) return {};
+        const double ratio = medium(hit.medium_after).index / medium(hit.medium_before).index;
+        const double cosine = std::fabs(dot(hit.normal, shadow.ray.direction));
+        left *= material.transmission * (1.0 - fresnel(cosine, std::max(ratio, 1.0 / ratio)));
+        if (max_norm(left) < kDark) return {};
+        const double rest = shadow.t_max - hit.t;
+        shadow = from_surface(hit, shadow.ray.direction);
+        shadow.t_max = rest;
+        at = hit.medium_after;
+    }
+    const Surface& last = medium(at);
+    return last.absorbs ? left * transmittance(last, shadow.t_max) : left;
+}
+
+}  // namespace raymo::render

@@ -1,0 +1,125 @@
+// Rays to light: recursive ray tracing [Whitted80], [Wijk86 2.2], with shadows through transparent
+// parts.
+//
+// At a surface the light towards the viewer is the sum of
+//     body * ambient  +  for each lamp that is not hidden:  power n.l (body + facets)      (here,
+//     light_model.hpp) mirror image, refracted image (rays that are traced next)
+// Rays to be traced next wait on a stack with the weight that they will have in the picture, so
+// there is no recursion. A ray that starts on a surface names that surface instead of starting a
+// little above it; together with exact normals this leaves neither acne nor light leaks. A lamp
+// behind a surface does not light it.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "raymo/render/lamps.hpp"
+#include "raymo/render/light_model.hpp"
+#include "raymo/render/render.hpp"
+#include "raymo/trace/tracer.hpp"
+
+namespace raymo::render {
+
+/// What all threads share.
+struct Stage {
+    const trace::CompiledScene* scene = nullptr;
+    std::vector<Lamp> lamps;
+    Colour ambient;
+    scene::Background background;
+    int max_depth = 8;
+    double min_weight = 1.0 / 512;
+
+    Stage(const trace::CompiledScene& scene, const Look& look, const Options& options);
+
+    /// What is seen in unit direction `d` where nothing is.
+    [[nodiscard]] Colour behind(Vec3 d) const {
+        const double up = 0.5 + 0.5 * d.z;
+        return background.bottom * (1.0 - up) + background.top * up;
+    }
+};
+
+/// A ray from the eye. Samples of one pixel share its `seed`; together they use each area light's
+/// samples once.
+struct EyeRay {
+    Ray ray;  ///< unit direction
+    std::uint64_t seed = 0;
+    std::uint32_t sample = 0;
+    std::uint32_t samples = 1;
+};
+
+/// Tells surfaces apart: equal for rays that saw the same face of the same leaf of the same part.
+struct Signature {
+    std::uint32_t face = 0;               ///< 0: nothing was seen
+    std::array<std::int8_t, 3> normal{};  ///< times 127
+
+    friend bool operator==(const Signature&, const Signature&) = default;
+};
+
+struct Answer {
+    Colour light;
+    Signature signature;
+};
+
+/// Answers rays. Holds scratch memory, so one per thread.
+class RayShader {
+public:
+    static constexpr std::size_t kPacket = trace::Tracer::kPacket;
+
+    /// `stage` must outlive it.
+    explicit RayShader(const Stage& stage);
+
+    /// Light along up to kPacket rays; answers do not depend on which rays are asked together.
+    void answer(std::span<const EyeRay> rays, Answer* answers);
+
+    [[nodiscard]] trace::RayCounts counts() const;
+
+private:
+    /// A ray whose hit is to be shaded.
+    struct Path {
+        Colour weight;
+        int depth = 0;
+        std::size_t lane = 0;  ///< of the eye ray it descends from
+    };
+    struct Pending {
+        trace::RayQuery query;
+        Path path;
+    };
+    /// A hit while lamps are summed up.
+    struct Spot {
+        const Surface* surface;
+        Vec3 normal;  ///< on the viewer's side
+        double nv;
+        Colour body;   ///< with what the interface took away
+        Colour light;  ///< so far
+        bool lit;      ///< lamps count
+    };
+
+    void shade(std::size_t count, const trace::RayQuery* queries, const trace::Hit* hits,
+               const Path* paths);
+    [[nodiscard]] Spot approach(const trace::RayQuery& query, const trace::Hit& hit, Path& path);
+    void light_directly(const Lamp& lamp, std::size_t count, const trace::RayQuery* queries,
+                        const trace::Hit* hits, Spot* spots);
+    void light_softly(const Lamp& lamp, const trace::RayQuery& query, const trace::Hit& hit,
+                      const Path& path, Spot& spot);
+    void add_light(const trace::RayQuery& query, const trace::Hit& hit, const Arrival& arrival,
+                   double nl, double part, const trace::RayQuery& shadow, Spot& spot);
+    void spawn(const trace::Hit& hit, Vec3 direction, const Path& path, Colour weight);
+    [[nodiscard]] Colour filtered(trace::RayQuery shadow, csg::MaterialId at);
+    [[nodiscard]] const Surface& surface(csg::MaterialId id);
+    [[nodiscard]] const Surface& medium(csg::MaterialId id);
+
+    const Stage* stage_;
+    trace::Tracer tracer_;
+    std::vector<std::unique_ptr<const Surface>> surfaces_;  ///< by material, made when first seen
+    std::unique_ptr<const Surface> unpainted_;
+    Surface air_;
+    std::vector<Pending> pending_;
+    std::span<const EyeRay> eyes_;
+    Answer* answers_ = nullptr;
+    std::array<std::uint32_t, kPacket> events_{};  ///< hits shaded so far, by lane
+    trace::RayCounts counts_;
+};
+
+}  // namespace raymo::render
