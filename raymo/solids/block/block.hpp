@@ -1,8 +1,8 @@
-// The ball of radius r about the origin.
+// The block with edges along the axes.
 //
-// Canonical frame: the unit sphere  |x|^2 <= 1. Polynomial along a ray: degree 2; derivation in kernel.inl.
-// Under a map L its box reaches |row i of L| from the centre, since the support of the unit ball in direction n is |n|.
-// Ref: [Wijk86 2.3].
+// Canonical frame: the cube [-1, 1]^3. Along a ray: three pairs of parallel planes; derivation in
+// solids/interval.inl. Under a map L its box reaches |L_i1| + |L_i2| + |L_i3| from the centre, the
+// support of the cube in direction L_i. Ref: [Wijk86 2.3], [KayKajiya86].
 #pragma once
 
 #include "raymo/solids/primitive.hpp"
@@ -14,10 +14,11 @@ struct Block {
     public:
         [[nodiscard]] Aabb bounds(const Affine& map) const;
         void spans(const LocalRay<double>& ray, SpanList& out) const;
-        [[nodiscard]] Vec3 normal(Vec3 p, std::uint16_t) const { return p; }
+        [[nodiscard]] Vec3 normal(Vec3 p, std::uint16_t face) const;
         [[nodiscard]] Where where(Vec3 p, Vec3 e) const;
         [[nodiscard]] std::span<const std::string_view> faces() const;
-        [[nodiscard]] double volume() const;  ///< 4 pi / 3, in the canonical frame.
+        [[nodiscard]] double volume() const;  ///< 8, in the canonical frame.
+        [[nodiscard]] double area() const;    ///< 24, in the canonical frame.
         friend bool operator==(const Kernel&, const Kernel&) = default;
     };
 

@@ -1,8 +1,8 @@
-// The ball of radius r about the origin.
+// The right circular cylinder about the z axis.
 //
-// Canonical frame: the unit sphere  |x|^2 <= 1. Polynomial along a ray: degree 2; derivation in kernel.inl.
-// Under a map L its box reaches |row i of L| from the centre, since the support of the unit ball in direction n is |n|.
-// Ref: [Wijk86 2.3].
+// Canonical frame: x^2 + y^2 <= 1, -1 <= z <= 1. Along a ray: a quadratic for the side, a slab for
+// the caps; derivation in kernel.inl. Its support in direction n is |(n_x, n_y)| + |n_z|, which
+// gives its box under any map. Faces: 0 side, 1 bottom (z = -1), 2 top (z = 1). Ref: [Wijk86 2.3].
 #pragma once
 
 #include "raymo/solids/primitive.hpp"
@@ -14,10 +14,11 @@ struct Cylinder {
     public:
         [[nodiscard]] Aabb bounds(const Affine& map) const;
         void spans(const LocalRay<double>& ray, SpanList& out) const;
-        [[nodiscard]] Vec3 normal(Vec3 p, std::uint16_t) const { return p; }
+        [[nodiscard]] Vec3 normal(Vec3 p, std::uint16_t face) const;
         [[nodiscard]] Where where(Vec3 p, Vec3 e) const;
         [[nodiscard]] std::span<const std::string_view> faces() const;
-        [[nodiscard]] double volume() const;  ///< 4 pi / 3, in the canonical frame.
+        [[nodiscard]] double volume() const;  ///< 2 pi, in the canonical frame.
+        [[nodiscard]] double area() const;    ///< 6 pi, in the canonical frame.
         friend bool operator==(const Kernel&, const Kernel&) = default;
     };
 

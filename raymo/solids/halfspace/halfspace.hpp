@@ -1,8 +1,9 @@
-// The ball of radius r about the origin.
+// All points on one side of a plane: n.x <= offset.
 //
-// Canonical frame: the unit sphere  |x|^2 <= 1. Polynomial along a ray: degree 2; derivation in kernel.inl.
-// Under a map L its box reaches |row i of L| from the centre, since the support of the unit ball in direction n is |n|.
-// Ref: [Wijk86 2.3].
+// Canonical frame: z <= 0. The map that places it is a rotation that takes z to n / |n|, so that it
+// has no scale of its own; it is exact for normals along an axis. Along a ray: one span that
+// reaches to infinity; derivation in kernel.inl. Its box is infinite, except under maps that keep
+// the plane perpendicular to an axis. Ref: [Wijk86 2.3].
 #pragma once
 
 #include "raymo/solids/primitive.hpp"
@@ -14,10 +15,9 @@ struct Halfspace {
     public:
         [[nodiscard]] Aabb bounds(const Affine& map) const;
         void spans(const LocalRay<double>& ray, SpanList& out) const;
-        [[nodiscard]] Vec3 normal(Vec3 p, std::uint16_t) const { return p; }
+        [[nodiscard]] Vec3 normal(Vec3 p, std::uint16_t face) const;
         [[nodiscard]] Where where(Vec3 p, Vec3 e) const;
         [[nodiscard]] std::span<const std::string_view> faces() const;
-        [[nodiscard]] double volume() const;  ///< 4 pi / 3, in the canonical frame.
         friend bool operator==(const Kernel&, const Kernel&) = default;
     };
 

@@ -1,24 +1,39 @@
-// The ball of radius r about the origin.
+// All points with f(x) <= 0, f a polynomial of degree 2: ellipsoids, paraboloids, hyperboloids,
+// cones, cylinders over conics, pairs of planes, and their complements.
 //
-// Canonical frame: the unit sphere  |x|^2 <= 1. Polynomial along a ray: degree 2; derivation in kernel.inl.
-// Under a map L its box reaches |row i of L| from the centre, since the support of the unit ball in direction n is |n|.
-// Ref: [Wijk86 2.3].
+// The user gives the symmetric 4x4 matrix of f(x) = x^T A x + 2 b.x + c. Canonical frame: the
+// origin is moved to the centre (or, where there is none, to the point where the gradient is least
+// and, for a paraboloid, to its vertex), lengths are divided by a power of two near the surface's
+// size, and f by one near its largest coefficient. The transformation of the coefficients is done
+// with twice the working precision; derivation in canonical.cpp and, of spans, in spans.cpp. A
+// solid without interior is an error: f >= 0 everywhere, to within the rounding of the
+// coefficients. Ref: [Wijk86 2.3].
 #pragma once
 
+#include <optional>
+
 #include "raymo/solids/primitive.hpp"
+#include "raymo/solids/quadric/quadratic_form.hpp"
 
 namespace raymo::solids {
 
 struct Quadric {
     class Kernel {
     public:
+        Kernel() = default;
+        explicit Kernel(const QuadraticForm& form) : form_(form) {}
         [[nodiscard]] Aabb bounds(const Affine& map) const;
         void spans(const LocalRay<double>& ray, SpanList& out) const;
-        [[nodiscard]] Vec3 normal(Vec3 p, std::uint16_t) const { return p; }
+        [[nodiscard]] Vec3 normal(Vec3 p, std::uint16_t face) const;
         [[nodiscard]] Where where(Vec3 p, Vec3 e) const;
         [[nodiscard]] std::span<const std::string_view> faces() const;
-        [[nodiscard]] double volume() const;  ///< 4 pi / 3, in the canonical frame.
+        [[nodiscard]] std::optional<double> volume()
+            const;  ///< of an ellipsoid, in the canonical frame; else none.
+        [[nodiscard]] const QuadraticForm& form() const { return form_; }
         friend bool operator==(const Kernel&, const Kernel&) = default;
+
+    private:
+        QuadraticForm form_;
     };
 
     [[nodiscard]] static const Schema& schema();

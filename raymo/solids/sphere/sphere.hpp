@@ -1,8 +1,8 @@
 // The ball of radius r about the origin.
 //
-// Canonical frame: the unit sphere  |x|^2 <= 1. Polynomial along a ray: degree 2; derivation in kernel.inl.
-// Under a map L its box reaches |row i of L| from the centre, since the support of the unit ball in direction n is |n|.
-// Ref: [Wijk86 2.3].
+// Canonical frame: the unit sphere  |x|^2 <= 1. Polynomial along a ray: degree 2; derivation in
+// kernel.inl. Under a map L its box reaches |row i of L| from the centre, since the support of the
+// unit ball in direction n is |n|. Ref: [Wijk86 2.3].
 #pragma once
 
 #include "raymo/solids/primitive.hpp"

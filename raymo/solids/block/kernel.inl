@@ -1,0 +1,12 @@
+// Spans of the cube [-1, 1]^3, for one ray or several: three slabs (see solids/interval.inl, to be
+// included before).
+template <class R, class M>
+inline void block_spans(const LocalRay<R>& ray, LaneSpans<R, M, 1>& out) {
+    const R length = lane_sqrt(ray.dd);
+    Window<R> w;
+    open_window(w);
+    clip_slab(w, ray.ox, ray.dx, ray.ex, length, 0.0, 1.0);
+    clip_slab(w, ray.oy, ray.dy, ray.ey, length, 2.0, 3.0);
+    clip_slab(w, ray.oz, ray.dz, ray.ez, length, 4.0, 5.0);
+    close_window(w, ray, length, length > R(0.0), 0, out);
+}

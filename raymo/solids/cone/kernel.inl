@@ -1,0 +1,59 @@
+// Spans of the cone frustum x^2 + y^2 <= q(z)^2, |z| <= 1, with radius q(z) = m - g z; for one ray
+// or several (see math/lanes.hpp). Included once per instruction set, after solids/interval.inl.
+//
+// k is the radius at z = 1, so m = (1 + k) / 2, g = (1 - k) / 2. Along the line
+//     f(s) = x^2 + y^2 - q^2 = A s^2 + 2 B s + C,   A = dx^2 + dy^2 - g^2 dz^2,   B = ox dx + oy dy
+//     + g dz q0, C = ox^2 + oy^2 - q0^2,   q0 = m - g oz.
+//   A > 0  the line is flatter than the cone's generators: it is inside one of the two nappes
+//   between the roots. A < 0  it is steeper: inside the one nappe before the first root, inside the
+//   other after the second. Ours, q > 0, is
+//          the first when the line rises.
+// The slab |z| <= 1 cuts off the other nappe. The roots are r1 = Q / A, r2 = C / Q with
+// Q = -(B + sign(B) sqrt(B^2 - A C)): no cancellation, and A near 0 (parallel to a generator) sends
+// r1 to infinity.
+//
+// Error. Within the solid |x|, |y|, q <= 1 and |s| |d| <= sqrt(2). An error e of the line changes f
+// by at most 2 (ex + ey + g ez) and squares; eight roundings of the coefficients, of k and of the
+// root formula count as at most 8 u (d.d s^2 + 2 |B| s + |o|^2 + q0^2) <= 8 u (4 + 2 |o|^2 + 2
+// q0^2). Together E; roots of f +- E differ from those of f by at most E / sqrt(max(D, |A| E)), D =
+// B^2 - A C. With A > 0 and D + A E < 0 there is no root.
+template <class R, class M>
+inline void cone_spans(double k, const LocalRay<R>& ray, LaneSpans<R, M, 1>& out) {
+    const R zero = R(0.0);
+    const R inf = R(std::numeric_limits<double>::infinity());
+    const R m = R(0.5 * (1.0 + k));
+    const R g = R(0.5 * (1.0 - k));
+    const R length = lane_sqrt(ray.dd);
+    const R q0 = m - g * ray.oz;
+    const R dq = g * ray.dz;
+    const R oo = ray.ox * ray.ox + ray.oy * ray.oy;
+    const R a0 = ray.dx * ray.dx + ray.dy * ray.dy - dq * dq;
+    const R a = lane_copysign(lane_max(lane_abs(a0), ray.dd * R(0x1p-200)), a0);
+    const R b = ray.ox * ray.dx + ray.oy * ray.dy + dq * q0;
+    const R c = oo - q0 * q0;
+    const R e = ray.ex + ray.ey + g * ray.ez;
+    const R slack =
+        e + e + e * e +
+        R(8.0 * kUnitRoundoff) * (R(4.0) + R(2.0) * (oo + ray.oz * ray.oz) + R(2.0) * q0 * q0);
+    const R d = b * b - a * c;
+    const R root = lane_sqrt(lane_max(d, zero));
+    const R q = zero - (b + lane_copysign(root, b));
+    const R r1 = q / a;
+    const R r2 = lane_select(d > zero, c / q, r1);
+    const R error = slack / lane_sqrt(lane_max(d, lane_abs(a) * slack));
+    const R low = lane_min(r1, r2);
+    const R high = lane_max(r1, r2);
+
+    const M flat = a > zero;
+    const M rising = ray.dz > zero;
+    const M open_below = lane_and(lane_not(flat), rising);
+    const M open_above = lane_and(lane_not(flat), lane_not(rising));
+    Window<R> w;
+    open_window(w);
+    clip_enter(w, lane_select(open_below, zero - inf, lane_select(flat, low, high)),
+               lane_select(open_below, zero, error), zero);
+    clip_exit(w, lane_select(open_above, inf, lane_select(flat, high, low)),
+              lane_select(open_above, zero, error), zero);
+    clip_slab(w, ray.oz, ray.dz, ray.ez, length, 1.0, 2.0);
+    close_window(w, ray, length, lane_or(lane_not(flat), d + a * slack > zero), 0, out);
+}

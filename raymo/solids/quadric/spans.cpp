@@ -1,0 +1,140 @@
+// Spans of f(x) <= 0, f a polynomial of degree 2, along a line.
+//
+// With x = o + s d:  f = A s^2 + 2 B s + C,  A = d.Ad,  B = d.(Ao + b),  C = f(o). The solid may be
+// unbounded, so s may have any size, and A, B and C may be zero, alone or together.
+//
+// Error. The line is off by at most e for |s| |d| <= 1 and by e (1 + |s| |d|) beyond, so f(x) by
+//     E(s) = 2 |Ax + b|.e (1 + |s| |d|) + (e.|A|e) (1 + |s| |d|)^2 + 8 u (|f|)(|x|)  <=  E0 + E1
+//     |s| + E2 s^2
+// where |f| is f with the absolute values of its coefficients: eight roundings of the coefficients,
+// of A, B and C, and of the root formula. A root r is certain to within E / sqrt(max(D, |A| E)), D
+// = B^2 - A C, E = 2 E(r): the 2 allows for the change of E between r and the true root. |A| <= E2
+// means that the sign of A is not known: the line is parallel to a generator, and one root or both
+// lie farther away than the line is known to be straight. A is then taken as 0; so is B when 2 |B|
+// <= E1, and the line is inside or outside altogether.
+#include <cmath>
+#include <limits>
+
+#include "raymo/math/tolerance.hpp"
+#include "raymo/solids/quadric/quadric.hpp"
+
+namespace raymo::solids {
+namespace {
+
+constexpr double kInf = std::numeric_limits<double>::infinity();
+
+/// A line that is parallel to a generator to within rounding is watched for crossings up to this
+/// many lengths of the canonical frame.
+constexpr double kReach = 64.0;
+
+struct Line {
+    double length;      ///< |d|
+    double e0, e1, e2;  ///< of E(s)
+    double e_size;      ///< largest component of e
+
+    [[nodiscard]] double error(double s) const {
+        const double t = std::fabs(s);
+        return e0 + t * (e1 + t * e2);
+    }
+    /// The crossing may lie where the tracer looks, and is uncertain because of the angle at which
+    /// it is met.
+    [[nodiscard]] bool degenerate(const SpanEnd& end) const {
+        const double place = std::fabs(end.s) * length;
+        const double blur = end.error * length;
+        return !(blur <= (kDegenerate + 64.0 * e_size) * (1.0 + place)) && !(place - blur > kReach);
+    }
+};
+
+/// p q - r s with one rounding of each product's error [Kahan].
+double difference_of_products(double p, double q, double r, double s) {
+    const double rs = r * s;
+    return std::fma(p, q, -rs) + std::fma(-r, s, rs);
+}
+
+void push(const Line& line, SpanEnd enter, SpanEnd exit, SpanList& out) {
+    if (line.degenerate(enter) || line.degenerate(exit)) out.set_degenerate();
+    if (exit.s - enter.s > enter.error + exit.error) out.push({enter, exit});
+}
+
+constexpr SpanEnd kBegin{-kInf, 0.0, 0};
+constexpr SpanEnd kEnd{kInf, 0.0, 0};
+
+void constant_spans(const Line& line, double c, double slope, double bend, SpanList& out) {
+    const double r = kReach / line.length;
+    if (std::fabs(c) <= line.error(r) + r * (std::fabs(slope) + r * std::fabs(bend)))
+        out.set_degenerate();
+    if (c < 0.0) out.push({kBegin, kEnd});
+}
+
+void linear_spans(const Line& line, double slope, double c, SpanList& out) {
+    const double s = -c / slope;
+    const SpanEnd end{s, 2.0 * line.error(s) / std::fabs(slope), 0};
+    if (slope > 0.0) {
+        push(line, kBegin, end, out);
+    } else {
+        push(line, end, kEnd, out);
+    }
+}
+
+}  // namespace
+
+void Quadric::Kernel::spans(const LocalRay<double>& ray, SpanList& out) const {
+    const Vec3 o{ray.ox, ray.oy, ray.oz};
+    const Vec3 d{ray.dx, ray.dy, ray.dz};
+    const Vec3 e{ray.ex, ray.ey, ray.ez};
+    const Mat3 size = abs(form_.a);
+    const Vec3 ad = form_.a * d;
+    const Vec3 g = form_.half_gradient(o);
+
+    Line line{};
+    line.length = std::sqrt(ray.dd);
+    line.e_size = max_norm(e);
+    const double g0 = dot(abs(g), e);
+    const double g1 = dot(abs(ad), e);
+    const double q = dot(e, size * e);
+    const double u = 8.0 * kUnitRoundoff;
+    const Vec3 size_d = size * abs(d);
+    line.e0 = 2.0 * g0 + q + u * form_.magnitude(o);
+    line.e1 = 2.0 * (g1 + (g0 + q) * line.length) + 2.0 * u * dot(size_d, abs(o)) +
+              2.0 * u * dot(abs(form_.b), abs(d));
+    line.e2 = (2.0 * g1 + q * line.length) * line.length + u * dot(size_d, abs(d));
+
+    const double a = dot(d, ad);
+    const double b = dot(d, g);
+    const double c = form_(o);
+    if (!(std::fabs(a) > line.e2)) {
+        if (!(2.0 * std::fabs(b) > line.e1)) {
+            constant_spans(line, c, 2.0 * b, a, out);
+        } else {
+            linear_spans(line, 2.0 * b, c, out);
+        }
+        return;
+    }
+    const double disc = difference_of_products(b, b, a, c);
+    const double root = std::sqrt(std::max(disc, 0.0));
+    const double far = -(b + std::copysign(root, b));
+    const double r1 = far / a;
+    const double r2 = disc > 0.0 ? c / far : r1;
+    const auto end = [&](double s) {
+        const double slack = 2.0 * line.error(s);
+        return SpanEnd{s, slack / std::sqrt(std::max(disc, std::fabs(a) * slack)), 0};
+    };
+    const SpanEnd low = end(std::min(r1, r2));
+    const SpanEnd high = end(std::max(r1, r2));
+    const bool missed =
+        disc + std::fabs(a) * std::max(line.error(low.s), line.error(high.s)) <= 0.0;
+    if (a > 0.0) {
+        if (!missed) push(line, low, high, out);
+        return;
+    }
+    // Outside only between the roots; a gap thinner than its errors is nothing.
+    if (!missed && (line.degenerate(low) || line.degenerate(high))) out.set_degenerate();
+    if (missed || !(high.s - low.s > low.error + high.error)) {
+        out.push({kBegin, kEnd});
+        return;
+    }
+    out.push({kBegin, low});
+    out.push({high, kEnd});
+}
+
+}  // namespace raymo::solids
