@@ -28,7 +28,8 @@ public:
     CompiledScene(CompiledScene&&) noexcept;
     CompiledScene& operator=(CompiledScene&&) noexcept;
 
-    /// Box around all parts (around the leaves' active zones, so often tighter than csg::bounds). Empty for an empty model.
+    /// Box around all parts (around the leaves' active zones, so often tighter than csg::bounds).
+    /// Empty for an empty model.
     [[nodiscard]] const Aabb& bounds() const;
     [[nodiscard]] std::size_t part_count() const;
     /// Leaves after instancing: those that are stored.
@@ -48,7 +49,9 @@ private:
 
 /// Flattens the graph to leaves, one table per primitive, and builds the tree of boxes.
 /// Errors: unbounded, naming the operand, when a part reaches to infinity; cancelled; limit.
-/// Cost: O(n log n) in stored leaves; a solid used many times is stored once when the model is large.
-[[nodiscard]] Result<CompiledScene> compile(const scene::Scene& scene, Progress* progress = nullptr);
+/// Cost: O(n log n) in stored leaves; a solid used many times is stored once when the model is
+/// large.
+[[nodiscard]] Result<CompiledScene> compile(const scene::Scene& scene,
+                                            Progress* progress = nullptr);
 
 }  // namespace raymo::trace

@@ -12,12 +12,12 @@
 
 namespace raymo::trace {
 
-/// A place on a surface, kept by a hit and handed back with the rays that start there: no offset is needed, the crossing
-/// is recognised by leaf and face.
+/// A place on a surface, kept by a hit and handed back with the rays that start there: no offset is
+/// needed, the crossing is recognised by leaf and face.
 struct SurfaceId {
     static constexpr std::uint32_t kNone = 0xffffffffU;
-    std::uint32_t leaf = kNone;      ///< stored leaf
-    std::uint32_t instance = 0;      ///< which instance of it; 0 when the leaf is not instanced
+    std::uint32_t leaf = kNone;  ///< stored leaf
+    std::uint32_t instance = 0;  ///< which instance of it; 0 when the leaf is not instanced
     std::uint16_t face = 0;
 
     friend bool operator==(const SurfaceId&, const SurfaceId&) = default;
@@ -27,8 +27,8 @@ struct SurfaceId {
 struct RayQuery {
     Ray ray;
     double t_max = std::numeric_limits<double>::infinity();
-    SurfaceId start = {};       ///< the surface that the ray starts on, or none
-    double start_error = 0.0;   ///< bound of the distance of ray.origin from that surface
+    SurfaceId start = {};      ///< the surface that the ray starts on, or none
+    double start_error = 0.0;  ///< bound of the distance of ray.origin from that surface
 };
 
 /// A crossing of a part's boundary.
@@ -37,11 +37,12 @@ struct Hit {
     double error = 0.0;  ///< |t - true t| <= error
     Vec3 point;
     double point_error = 0.0;  ///< distance of `point` from the surface, at most
-    Vec3 normal;         ///< unit, out of the part
+    Vec3 normal;               ///< unit, out of the part
     bool entering = true;
     std::uint32_t part = 0;
-    csg::MaterialId material = csg::kNoMaterial;         ///< of the surface
-    /// Material of what the ray is in just before and just behind the surface; kAir when outside of everything.
+    csg::MaterialId material = csg::kNoMaterial;  ///< of the surface
+    /// Material of what the ray is in just before and just behind the surface; kAir when outside of
+    /// everything.
     static constexpr std::uint32_t kAir = 0xfffffffeU;
     csg::MaterialId medium_before = kAir;
     csg::MaterialId medium_after = kAir;
@@ -68,16 +69,18 @@ public:
 
     /// First crossing of any part's boundary with 0 < t < t_max. False: none.
     [[nodiscard]] bool first_hit(const RayQuery& query, Hit& hit);
-    /// True when a crossing of an opaque part's boundary lies within (0, t_max), or the ray starts inside one.
+    /// True when a crossing of an opaque part's boundary lies within (0, t_max), or the ray starts
+    /// inside one.
     [[nodiscard]] bool occluded(const RayQuery& query);
 
     static constexpr std::size_t kPacket = 8;
-    /// The same answers, bit for bit, for up to kPacket rays together; faster when the rays are close. found[i] tells
-    /// whether hits[i] is set.
+    /// The same answers, bit for bit, for up to kPacket rays together; faster when the rays are
+    /// close. found[i] tells whether hits[i] is set.
     void first_hits(std::span<const RayQuery> queries, Hit* hits, bool* found);
     void occluded(std::span<const RayQuery> queries, bool* blocked);
 
-    /// All spans of every part along the whole line, from -infinity to +infinity, by part and then by t.
+    /// All spans of every part along the whole line, from -infinity to +infinity, by part and then
+    /// by t.
     void spans(const Ray& ray, std::vector<std::vector<PartSpan>>& by_part);
 
     [[nodiscard]] LeafInfo leaf_info(SurfaceId id) const;

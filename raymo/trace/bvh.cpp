@@ -1,0 +1,233 @@
+#include "raymo/trace/bvh.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace raymo::trace {
+namespace {
+
+constexpr float kInf = std::numeric_limits<float>::infinity();
+constexpr int kBins = 16;
+/// Cost of one leaf test in box tests: a leaf costs about as much as four nodes' share of one
+/// child.
+constexpr float kLeafCost = 4.0F;
+
+struct Bounds {
+    std::array<float, 3> lo{kInf, kInf, kInf};
+    std::array<float, 3> hi{-kInf, -kInf, -kInf};
+
+    void add(const std::array<float, 3>& l, const std::array<float, 3>& h) {
+        for (std::size_t i = 0; i < 3; ++i) {
+            lo[i] = std::min(lo[i], l[i]);
+            hi[i] = std::max(hi[i], h[i]);
+        }
+    }
+    [[nodiscard]] float half_area() const {
+        const float x = hi[0] - lo[0];
+        const float y = hi[1] - lo[1];
+        const float z = hi[2] - lo[2];
+        return x < 0.0F ? 0.0F : x * y + y * z + z * x;
+    }
+};
+
+struct Ref {
+    Boxf box;
+    std::uint32_t id;
+
+    [[nodiscard]] float centre2(std::size_t axis) const { return box.lo[axis] + box.hi[axis]; }
+};
+
+/// A run of refs, with the box around them and the box around their centres (times 2).
+struct Range {
+    std::uint32_t begin = 0;
+    std::uint32_t end = 0;
+    Bounds bounds;
+    Bounds centres;
+    bool divisible = true;  ///< false once splitting was found not to pay
+
+    [[nodiscard]] std::uint32_t size() const { return end - begin; }
+};
+
+struct Bin {
+    Bounds bounds;
+    std::uint32_t count = 0;
+};
+
+class Builder {
+public:
+    explicit Builder(const std::vector<Boxf>& boxes) {
+        refs_.reserve(boxes.size());
+        for (std::size_t i = 0; i < boxes.size(); ++i) {
+            refs_.push_back({boxes[i], static_cast<std::uint32_t>(i)});
+        }
+    }
+
+    Bvh build() {
+        Bvh out;
+        out.nodes.reserve(refs_.size() / 4 + 1);
+        out.nodes.emplace_back();
+        std::vector<std::pair<std::uint32_t, Range>> todo;
+        todo.emplace_back(0U, measure(0, static_cast<std::uint32_t>(refs_.size())));
+        while (!todo.empty()) {
+            const auto [index, range] = todo.back();
+            todo.pop_back();
+            const int count = divide(range);
+            BvhNode node;
+            for (int c = 0; c < BvhNode::kWidth; ++c) {
+                const bool used = c < count && pieces_[static_cast<std::size_t>(c)].size() > 0;
+                const Range& piece = pieces_[static_cast<std::size_t>(used ? c : 0)];
+                for (std::size_t a = 0; a < 3; ++a) {
+                    node.lo[a][c] = used ? piece.bounds.lo[a] : kInf;
+                    node.hi[a][c] = used ? piece.bounds.hi[a] : -kInf;
+                }
+                node.ref[c] = 0;
+                node.count[c] = 0;
+                if (!used) continue;
+                if (!piece.divisible || piece.size() == 1) {
+                    node.ref[c] = piece.begin;
+                    node.count[c] = static_cast<std::uint8_t>(piece.size());
+                } else {
+                    node.ref[c] = static_cast<std::uint32_t>(out.nodes.size());
+                    out.nodes.emplace_back();
+                    todo.emplace_back(node.ref[c], piece);
+                }
+            }
+            out.nodes[index] = node;
+        }
+        out.order.reserve(refs_.size());
+        for (const Ref& ref : refs_) out.order.push_back(ref.id);
+        return out;
+    }
+
+private:
+    [[nodiscard]] Range measure(std::uint32_t begin, std::uint32_t end) const {
+        Range r;
+        r.begin = begin;
+        r.end = end;
+        for (std::uint32_t i = begin; i < end; ++i) {
+            const Ref& ref = refs_[i];
+            r.bounds.add(ref.box.lo, ref.box.hi);
+            const std::array<float, 3> c{ref.centre2(0), ref.centre2(1), ref.centre2(2)};
+            r.centres.add(c, c);
+        }
+        return r;
+    }
+
+    /// Fills pieces_ with up to eight pieces of `range`; returns how many.
+    int divide(const Range& range) {
+        pieces_[0] = range;
+        int count = 1;
+        while (count < BvhNode::kWidth) {
+            int widest = -1;
+            float area = -1.0F;
+            for (int i = 0; i < count; ++i) {
+                const Range& p = pieces_[static_cast<std::size_t>(i)];
+                if (p.divisible && p.size() > 1 && p.bounds.half_area() > area) {
+                    area = p.bounds.half_area();
+                    widest = i;
+                }
+            }
+            if (widest < 0) break;
+            Range& piece = pieces_[static_cast<std::size_t>(widest)];
+            Range right;
+            if (!split(piece, right)) {
+                piece.divisible = false;
+                continue;
+            }
+            pieces_[static_cast<std::size_t>(count++)] = right;
+        }
+        return count;
+    }
+
+    /// Splits `range` in two; false when it is better left whole.
+    bool split(Range& range, Range& right) {
+        const std::uint32_t n = range.size();
+        float best = kInf;
+        std::size_t best_axis = 0;
+        int best_plane = 0;
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const float lo = range.centres.lo[axis];
+            const float extent = range.centres.hi[axis] - lo;
+            if (!(extent > 0.0F)) continue;
+            const float to_bin = static_cast<float>(kBins) * 0.99999F / extent;
+            if (!std::isfinite(to_bin)) continue;
+            std::array<Bin, kBins> bins{};
+            for (std::uint32_t i = range.begin; i < range.end; ++i) {
+                Bin& bin = bins[static_cast<std::size_t>((refs_[i].centre2(axis) - lo) * to_bin)];
+                bin.bounds.add(refs_[i].box.lo, refs_[i].box.hi);
+                ++bin.count;
+            }
+            std::array<float, kBins> right_cost{};
+            Bounds acc;
+            std::uint32_t count = 0;
+            for (std::size_t b = kBins - 1; b > 0; --b) {
+                acc.add(bins[b].bounds.lo, bins[b].bounds.hi);
+                count += bins[b].count;
+                right_cost[b] = acc.half_area() * static_cast<float>(count);
+            }
+            acc = {};
+            count = 0;
+            for (std::size_t b = 0; b + 1 < kBins; ++b) {
+                acc.add(bins[b].bounds.lo, bins[b].bounds.hi);
+                count += bins[b].count;
+                const float cost = acc.half_area() * static_cast<float>(count) + right_cost[b + 1];
+                if (count > 0 && count < n && cost < best) {
+                    best = cost;
+                    best_axis = axis;
+                    best_plane = static_cast<int>(b);
+                }
+            }
+        }
+        const bool fits = n <= static_cast<std::uint32_t>(kMaxRange);
+        if (fits) {
+            // Splitting costs one more box test for the halves; leaving whole costs testing all
+            // leaves.
+            const float area = range.bounds.half_area();
+            if (!(kLeafCost * best + area < kLeafCost * area * static_cast<float>(n))) return false;
+        }
+        std::uint32_t middle = range.begin;
+        if (best < kInf) {
+            const float lo = range.centres.lo[best_axis];
+            const float to_bin =
+                static_cast<float>(kBins) * 0.99999F / (range.centres.hi[best_axis] - lo);
+            const auto it = std::partition(
+                refs_.begin() + range.begin, refs_.begin() + range.end, [&](const Ref& ref) {
+                    return static_cast<int>((ref.centre2(best_axis) - lo) * to_bin) <= best_plane;
+                });
+            middle = static_cast<std::uint32_t>(it - refs_.begin());
+        }
+        if (middle == range.begin || middle == range.end)
+            middle = range.begin + n / 2;  // all centres equal
+        right = measure(middle, range.end);
+        range = measure(range.begin, middle);
+        return true;
+    }
+
+    std::vector<Ref> refs_;
+    std::array<Range, BvhNode::kWidth> pieces_;
+};
+
+float round_down(double v) {
+    const auto f = static_cast<float>(v);
+    return static_cast<double>(f) <= v ? f : std::nextafter(f, -kInf);
+}
+float round_up(double v) {
+    const auto f = static_cast<float>(v);
+    return static_cast<double>(f) >= v ? f : std::nextafter(f, kInf);
+}
+
+}  // namespace
+
+Boxf outward(const Aabb& box, double margin) {
+    Boxf out{};
+    for (int i = 0; i < 3; ++i) {
+        out.lo[static_cast<std::size_t>(i)] = round_down(box.lo[i] - margin);
+        out.hi[static_cast<std::size_t>(i)] = round_up(box.hi[i] + margin);
+    }
+    return out;
+}
+
+Bvh build_bvh(const std::vector<Boxf>& boxes) { return Builder(boxes).build(); }
+
+}  // namespace raymo::trace

@@ -1,0 +1,389 @@
+// A solid's graph is walked once, left to right, along every path (but not into instances), with
+// the composed transformation and the error bound of that composition. Three passes over the list
+// of items follow:
+//
+//   boxes up     union: hull; intersection: overlap; difference: its first operand's box
+//   clips down   an item matters only within the clip of its parent, which for an intersection or
+//   difference is the
+//                overlap of what must contain the point: the item's active zone [Rossignac89]
+//   groups down  union, intersection and difference become ORs of literals (see data.hpp)
+//
+// A leaf whose clip is empty can not change anything and is left out: it counts as `out` for good.
+
+#include "raymo/trace/flatten.hpp"
+
+#include <cmath>
+
+#include "raymo/core/assert.hpp"
+#include "raymo/trace/placement.hpp"
+
+namespace raymo::trace {
+
+namespace {
+
+enum class Kind : std::uint8_t { leaf, unite, intersect, subtract };
+
+/// An instance pays from this many leaves on; deeper nesting than kMaxDepth is flattened.
+constexpr double kShareLeaves = 64.0;
+constexpr int kMaxDepth = 40;
+
+}  // namespace
+
+struct Flattener::Item {
+    Aabb box;              ///< of the item, later its clip
+    std::uint32_t parent;  ///< item; kNone for the root of a part
+    std::uint32_t link;    ///< leaf: index into pending leaves; else: group, once made
+    Kind kind;
+    bool subtracted = false;        ///< a later operand of a difference
+    bool literals_negated = false;  ///< of its operands, once grouped
+};
+
+struct Flattener::Pending {
+    Leaf leaf;           ///< centre and displacement in the model frame until normalised
+    float linear_error;  ///< of the placement
+    bool endless;        ///< the leaf alone reaches to infinity
+    csg::MaterialId material;
+    SourceSpan span;
+    std::uint32_t primitive;
+    std::uint32_t item;
+};
+
+struct Flattener::Work {
+    std::vector<Item> items;
+    std::vector<Pending> pending;
+    std::vector<Boxf> boxes;
+};
+
+struct Flattener::Visit {
+    const csg::Solid* solid;
+    std::size_t next = 0;  ///< operand to visit next
+    Placement place;
+    csg::MaterialId material;
+    std::uint32_t item;  ///< item of the boolean itself; for a leaf its parent
+    bool subtracted = false;
+};
+
+Result<std::uint32_t> Flattener::compile(std::span<const csg::Solid> parts, int depth) {
+    Work work;
+    if (auto done = expand(work, parts, depth); !done) return Failure(std::move(done).error());
+    combine_boxes(work);
+    if (auto done = check_bounded(work); !done) return Failure(std::move(done).error());
+
+    CompiledSolid out;
+    out.parts = static_cast<std::uint32_t>(parts.size());
+    make_groups(work, out);
+    normalise(work, out);
+    if (out.leaves.empty() && depth > 0) return kNone;
+
+    Bvh tree = build_bvh(work.boxes);
+    std::vector<Leaf> sorted;
+    sorted.reserve(out.leaves.size());
+    for (const std::uint32_t i : tree.order) sorted.push_back(out.leaves[i]);
+    out.leaves = std::move(sorted);
+    out.nodes = std::move(tree.nodes);
+    data_.solids.push_back(std::move(out));
+    return static_cast<std::uint32_t>(data_.solids.size() - 1);
+}
+
+Result<void> Flattener::expand(Work& work, std::span<const csg::Solid> parts, int depth) {
+    std::vector<Visit> stack;
+    std::uint32_t steps = 0;
+
+    // Goes down from `at` through transformations and paint to a leaf, an instance or a boolean.
+    const auto descend = [&](Visit at) -> Result<void> {
+        while (true) {
+            const csg::Node& node = at.solid->node();
+            if (node.kind == csg::NodeKind::transform) {
+                const auto& t = csg::as_transform(node);
+                at.place = at.place.then_inner(t.map);
+                at.solid = &t.child;
+            } else if (node.kind == csg::NodeKind::paint) {
+                const auto& p = csg::as_paint(node);
+                at.material = p.material;
+                at.solid = &p.child;
+            } else {
+                break;
+            }
+        }
+        const csg::Node& node = at.solid->node();
+        if (node.kind == csg::NodeKind::leaf) {
+            add_leaf(work, csg::as_leaf(node), at);
+            return {};
+        }
+        // What a lone part consists of would only be wrapped once more.
+        const bool whole = parts.size() == 1 && at.item == 0;
+        if (share_ && !whole && depth < kMaxDepth && node.leaf_count >= kShareLeaves &&
+            node.references.load(std::memory_order_relaxed) > 1) {
+            auto added = add_instance(work, at, depth);
+            if (!added) return Failure(std::move(added).error());
+            if (*added) return {};
+        }
+        Item item{};
+        item.parent = at.item;
+        item.subtracted = at.subtracted;
+        item.kind = node.op == csg::Op::unite          ? Kind::unite
+                    : node.op == csg::Op::intersection ? Kind::intersect
+                                                       : Kind::subtract;
+        at.item = static_cast<std::uint32_t>(work.items.size());
+        work.items.push_back(item);
+        stack.push_back(std::move(at));
+        return {};
+    };
+
+    for (const csg::Solid& part : parts) {
+        // Every part gets a union of its own as root, so that its group stands at the part's
+        // number.
+        const auto root = static_cast<std::uint32_t>(work.items.size());
+        work.items.push_back({Aabb{}, kNone, 0, Kind::unite});
+        if (auto done = descend({&part, 0, {}, csg::kNoMaterial, root, false}); !done) return done;
+        while (!stack.empty()) {
+            Visit& top = stack.back();
+            const auto& boolean = csg::as_boolean(top.solid->node());
+            if (top.next == boolean.operands.size()) {
+                stack.pop_back();
+                continue;
+            }
+            if ((++steps & 0xffffU) == 0 && progress_ != nullptr && progress_->cancelled()) {
+                return fail(ErrorCode::cancelled, "interrupted");
+            }
+            const bool subtracted = boolean.op == csg::Op::difference && top.next > 0;
+            const csg::Solid& operand = boolean.operands[top.next++];
+            if (auto done = descend({&operand, 0, top.place, top.material, top.item, subtracted});
+                !done) {
+                return done;
+            }
+        }
+    }
+    return {};
+}
+
+namespace {
+
+/// The frame of a leaf whose canonical frame is placed by `map`, in the model's scale.
+Frame frame_of(const Affine& map, std::uint32_t type, std::uint32_t index) {
+    Frame frame{};
+    frame.to_local = inverse(map.linear);
+    frame.type = type;
+    frame.index = index;
+    // Rounding of the inverse, seen from the leaf: |to_local| |map| is 1 for orthogonal axes and
+    // grows with skew.
+    const Mat3 spread = abs(frame.to_local) * abs(map.linear);
+    for (int i = 0; i < 3; ++i) {
+        const Vec3 row = spread.row[static_cast<std::size_t>(i)];
+        frame.error[i] = 8.0 * kUnitRoundoff * (row.x + row.y + row.z);
+    }
+    return frame;
+}
+
+float float_above(double v) {
+    const auto f = static_cast<float>(v);
+    return static_cast<double>(f) >= v ? f
+                                       : std::nextafter(f, std::numeric_limits<float>::infinity());
+}
+
+}  // namespace
+
+void Flattener::add_leaf(Work& work, const csg::LeafNode& node, const Visit& at) {
+    const Placement place = at.place.then_inner(node.solid.to_object);
+    const Frame frame = frame_of(place.map, static_cast<std::uint32_t>(node.solid.kernel.index()),
+                                 tables_.kernel(node.solid.kernel));
+    Pending pending{};
+    pending.leaf.centre = place.map.offset;
+    pending.leaf.frame = tables_.frame(frame);
+    const Vec3 moved = place.linear_error * Vec3{1, 1, 1} + place.offset_error;
+    pending.leaf.displacement = float_above(norm(moved));
+    pending.linear_error = float_above(norm(place.linear_error * Vec3{1, 1, 1}));
+    pending.material = at.material;
+    pending.span = node.span;
+    pending.primitive = node.primitive;
+    pending.item = static_cast<std::uint32_t>(work.items.size());
+    Item item{};
+    item.box =
+        std::visit([&](const auto& kernel) { return kernel.bounds(place.map); }, node.solid.kernel);
+    pending.endless = !item.box.bounded();
+    item.parent = at.item;
+    item.link = static_cast<std::uint32_t>(work.pending.size());
+    item.kind = Kind::leaf;
+    item.subtracted = at.subtracted;
+    work.items.push_back(item);
+    work.pending.push_back(pending);
+}
+
+Result<bool> Flattener::add_instance(Work& work, const Visit& at, int depth) {
+    const csg::Node& node = at.solid->node();
+    std::uint32_t index = kNone;
+    if (const auto known = compiled_.find(&node); known != compiled_.end()) {
+        index = known->second;
+    } else {
+        Flattener inner(data_, share_, progress_);
+        inner.compiled_ = std::move(compiled_);
+        auto made = inner.compile(std::span(at.solid, 1), depth + 1);
+        compiled_ = std::move(inner.compiled_);
+        if (!made) {
+            // A solid without end may still be cut to size by its surroundings, which only
+            // flattening sees.
+            if (made.error().code == ErrorCode::unbounded) return false;
+            return Failure(std::move(made).error());
+        }
+        index = *made;
+        compiled_.emplace(&node, index);
+    }
+    if (index == kNone) {
+        // Empty: an item without leaves, false for good.
+        Item item{};
+        item.parent = at.item;
+        item.subtracted = at.subtracted;
+        item.kind = Kind::unite;
+        work.items.push_back(item);
+        return true;
+    }
+    const CompiledSolid& solid = data_.solids[index];
+    const Placement place = at.place.then_inner(
+        {Mat3::diagonal(1.0 / solid.scale, 1.0 / solid.scale, 1.0 / solid.scale), solid.centre});
+    Pending pending{};
+    pending.leaf.centre = place.map.offset;
+    pending.leaf.frame = tables_.frame(frame_of(place.map, kInstanceType, index));
+    const Vec3 moved = place.linear_error * Vec3{1, 1, 1} + place.offset_error;
+    pending.leaf.displacement = float_above(norm(moved));
+    pending.material = at.material;
+    pending.span = node.span;
+    pending.item = static_cast<std::uint32_t>(work.items.size());
+    Item item{};
+    item.box = transformed(at.place.map, solid.bounds);
+    item.parent = at.item;
+    item.link = static_cast<std::uint32_t>(work.pending.size());
+    item.kind = Kind::leaf;
+    item.subtracted = at.subtracted;
+    work.items.push_back(item);
+    work.pending.push_back(pending);
+    return true;
+}
+
+void Flattener::combine_boxes(Work& work) const {
+    std::vector<Item>& items = work.items;
+    for (Item& item : items) {
+        if (item.kind == Kind::intersect || item.kind == Kind::subtract)
+            item.box = Aabb::everything();
+    }
+    for (std::size_t i = items.size(); i-- > 0;) {
+        const Item& item = items[i];
+        if (item.parent == kNone || item.subtracted) continue;
+        Item& parent = items[item.parent];
+        parent.box =
+            parent.kind == Kind::unite ? hull(parent.box, item.box) : overlap(parent.box, item.box);
+    }
+    for (Item& item : items) {
+        if (item.parent != kNone) item.box = overlap(item.box, items[item.parent].box);
+    }
+}
+
+Result<void> Flattener::check_bounded(const Work& work) const {
+    for (const Item& item : work.items) {
+        if (item.kind != Kind::leaf || item.box.empty() || item.box.bounded()) continue;
+        const Pending& leaf = work.pending[item.link];
+        const std::string_view name = solids::inventory()[leaf.primitive].schema->name;
+        return Failure(
+            Error{ErrorCode::unbounded, std::string(name) + ": the solid reaches to infinity",
+                  "this has no end",
+                  "intersect it with a block, or subtract it from a solid of finite size", -1,
+                  leaf.span});
+    }
+    return {};
+}
+
+void Flattener::make_groups(Work& work, CompiledSolid& out) {
+    std::vector<bool>
+        taken_away;  // by group: an even number of negations to the root, or an odd one
+    for (Item& item : work.items) {
+        if (item.parent == kNone) {
+            item.link = static_cast<std::uint32_t>(out.groups.size());
+            out.groups.push_back({});
+            taken_away.push_back(false);
+        }
+    }
+    for (Item& item : work.items) {
+        if (item.parent == kNone) continue;
+        const Item& parent = work.items[item.parent];
+        const std::uint32_t group = parent.link;
+        const bool negated = parent.literals_negated != item.subtracted;
+        if (item.kind == Kind::leaf) {
+            Pending& pending = work.pending[item.link];
+            if (negated) ++out.groups[group].initial;
+            pending.leaf.parent = group;
+            Look look;
+            look.material = pending.material;
+            look.primitive = pending.primitive;
+            look.span = pending.span;
+            look.literal_negated = negated;
+            look.cuts = taken_away[group] != negated;
+            look.borrows = look.cuts && look.material == csg::kNoMaterial;
+            pending.leaf.look = tables_.look(look);
+            continue;
+        }
+        // As an OR of literals: a union of its operands, the others of their operands' negations,
+        // negated as a whole.
+        const bool is_or = item.kind == Kind::unite;
+        item.literals_negated = !is_or;
+        if (is_or != negated) {
+            item.link = group;  // the literal is itself an OR: its literals join the parent's
+            continue;
+        }
+        item.link = static_cast<std::uint32_t>(out.groups.size());
+        out.groups.push_back({group, 0, true});
+        taken_away.push_back(!taken_away[group]);
+    }
+    for (std::size_t g = out.groups.size(); g-- > out.parts;) {
+        const Group& group = out.groups[g];
+        if ((group.initial > 0) != group.negated) ++out.groups[group.parent].initial;
+    }
+}
+
+void Flattener::normalise(Work& work, CompiledSolid& out) {
+    for (const Item& item : work.items) {
+        if (item.kind == Kind::leaf && !item.box.empty()) out.bounds = hull(out.bounds, item.box);
+    }
+    if (out.bounds.empty()) return;
+    out.centre = out.bounds.centre();
+    const double radius = norm(out.bounds.size()) * 0.5;
+    out.scale = radius > 0.0 ? std::ldexp(1.0, -std::ilogb(radius) - 1) : 1.0;
+
+    const auto first_frame = static_cast<std::uint32_t>(data_.frames.size());
+    for (Frame& frame : tables_.frames()) {
+        for (int i = 0; i < 3; ++i) {
+            Vec3& row = frame.to_local.row[static_cast<std::size_t>(i)];
+            row *= 1.0 / out.scale;
+            frame.row_length[i] = norm(row);
+        }
+        data_.frames.push_back(frame);
+    }
+    out.leaves.reserve(work.pending.size());
+    work.boxes.reserve(work.pending.size());
+    std::uint32_t order = 0;
+    for (Pending& pending : work.pending) {
+        const Aabb& clip = work.items[pending.item].box;
+        ++order;
+        if (clip.empty()) continue;
+        Leaf leaf = pending.leaf;
+        double displacement = leaf.displacement;
+        // Rounding of the subtraction below; an endless leaf errs by its placement's tilt over the
+        // whole model.
+        displacement += 2.0 * kUnitRoundoff * (norm(leaf.centre) + norm(out.centre));
+        if (pending.endless) {
+            displacement +=
+                2.0 * radius * (static_cast<double>(pending.linear_error) + 16.0 * kUnitRoundoff);
+        }
+        leaf.frame += first_frame;
+        leaf.centre = (leaf.centre - out.centre) * out.scale;
+        leaf.displacement = float_above(displacement * out.scale);
+        leaf.order = order;
+        const Aabb box{(clip.lo - out.centre) * out.scale, (clip.hi - out.centre) * out.scale};
+        // The float test of a ray errs by less than 2^-20 for origins within 4 of the centre; a
+        // crossing may be uncertain by kDegenerate of the leaf's size and must not precede its box.
+        const double margin =
+            0x1p-19 + 2.0 * kDegenerate * max_norm(box.size()) + leaf.displacement;
+        out.leaves.push_back(leaf);
+        work.boxes.push_back(outward(box, margin));
+    }
+}
+
+}  // namespace raymo::trace

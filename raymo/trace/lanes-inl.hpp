@@ -1,0 +1,62 @@
+// The types in which kernels compute several rays at once; compiled once per instruction set,
+// inside HWY_NAMESPACE. See math/lanes.hpp for the operations and for the same in one ray.
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+using D = hn::CappedTag<double, 8>;
+inline constexpr int kLanes = static_cast<int>(HWY_MIN(8, HWY_LANES(double)));
+
+using raymo::lane_abs;
+using raymo::lane_and;
+using raymo::lane_any;
+using raymo::lane_copysign;
+using raymo::lane_max;
+using raymo::lane_min;
+using raymo::lane_not;
+using raymo::lane_or;
+using raymo::lane_select;
+using raymo::lane_sqrt;
+
+struct Mask {
+    hn::Mask<D> m;
+};
+struct Lanes {
+    hn::Vec<D> v;
+
+    Lanes() = default;
+    HWY_INLINE explicit Lanes(double x) : v(hn::Set(D(), x)) {}
+    HWY_INLINE explicit Lanes(hn::Vec<D> x) : v(x) {}
+};
+
+HWY_INLINE Lanes operator+(Lanes a, Lanes b) { return Lanes(hn::Add(a.v, b.v)); }
+HWY_INLINE Lanes operator-(Lanes a, Lanes b) { return Lanes(hn::Sub(a.v, b.v)); }
+HWY_INLINE Lanes operator*(Lanes a, Lanes b) { return Lanes(hn::Mul(a.v, b.v)); }
+HWY_INLINE Lanes operator/(Lanes a, Lanes b) { return Lanes(hn::Div(a.v, b.v)); }
+HWY_INLINE Mask operator<(Lanes a, Lanes b) { return {hn::Lt(a.v, b.v)}; }
+HWY_INLINE Mask operator>(Lanes a, Lanes b) { return {hn::Gt(a.v, b.v)}; }
+HWY_INLINE Mask operator<=(Lanes a, Lanes b) { return {hn::Le(a.v, b.v)}; }
+HWY_INLINE Mask operator>=(Lanes a, Lanes b) { return {hn::Ge(a.v, b.v)}; }
+HWY_INLINE Lanes lane_sqrt(Lanes a) { return Lanes(hn::Sqrt(a.v)); }
+HWY_INLINE Lanes lane_abs(Lanes a) { return Lanes(hn::Abs(a.v)); }
+HWY_INLINE Lanes lane_select(Mask mask, Lanes yes, Lanes no) {
+    return Lanes(hn::IfThenElse(mask.m, yes.v, no.v));
+}
+// Written out, so that ties and NaN give the same operand on every machine.
+HWY_INLINE Lanes lane_min(Lanes a, Lanes b) { return lane_select(a < b, a, b); }
+HWY_INLINE Lanes lane_max(Lanes a, Lanes b) { return lane_select(a > b, a, b); }
+HWY_INLINE Lanes lane_copysign(Lanes size, Lanes sign) {
+    return Lanes(hn::CopySign(size.v, sign.v));
+}
+HWY_INLINE Mask lane_and(Mask a, Mask b) { return {hn::And(a.m, b.m)}; }
+HWY_INLINE Mask lane_or(Mask a, Mask b) { return {hn::Or(a.m, b.m)}; }
+HWY_INLINE Mask lane_not(Mask a) { return {hn::Not(a.m)}; }
+HWY_INLINE bool lane_any(Mask a) { return !hn::AllFalse(D(), a.m); }
+
+HWY_INLINE Lanes load(const double* p) { return Lanes(hn::LoadU(D(), p)); }
+HWY_INLINE void store(Lanes a, double* p) { hn::StoreU(a.v, D(), p); }
+/// One bit a lane.
+HWY_INLINE std::uint32_t bits(Mask a) {
+    std::uint8_t bytes[8] = {};
+    hn::StoreMaskBits(D(), a.m, bytes);
+    return bytes[0];
+}

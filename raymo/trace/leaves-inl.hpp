@@ -1,0 +1,269 @@
+// Rays against leaves; included by walk.cpp once per instruction set, inside HWY_NAMESPACE.
+
+/// How the kernels of one type are computed for several rays at once, and how many spans each
+/// gives; 0: one by one.
+template <class K>
+inline constexpr int kSpansInLanes = 0;
+template <>
+inline constexpr int kSpansInLanes<solids::Block::Kernel> = 1;
+template <>
+inline constexpr int kSpansInLanes<solids::Sphere::Kernel> = 1;
+template <>
+inline constexpr int kSpansInLanes<solids::Cylinder::Kernel> = 1;
+template <>
+inline constexpr int kSpansInLanes<solids::Cone::Kernel> = 1;
+template <>
+inline constexpr int kSpansInLanes<solids::Torus::Kernel> = 2;
+template <>
+inline constexpr int kSpansInLanes<solids::Halfspace::Kernel> = 1;
+
+using Ray8 = LocalRay<Lanes>;
+HWY_INLINE void lane_spans(const solids::Block::Kernel&, const Ray8& ray,
+                           LaneSpans<Lanes, Mask, 1>& out) {
+    block_spans(ray, out);
+}
+HWY_INLINE void lane_spans(const solids::Sphere::Kernel&, const Ray8& ray,
+                           LaneSpans<Lanes, Mask, 1>& out) {
+    sphere_spans(ray, out);
+}
+HWY_INLINE void lane_spans(const solids::Cylinder::Kernel&, const Ray8& ray,
+                           LaneSpans<Lanes, Mask, 1>& out) {
+    cylinder_spans(ray, out);
+}
+HWY_INLINE void lane_spans(const solids::Cone::Kernel& k, const Ray8& ray,
+                           LaneSpans<Lanes, Mask, 1>& out) {
+    cone_spans(k.ratio(), ray, out);
+}
+HWY_INLINE void lane_spans(const solids::Torus::Kernel& k, const Ray8& ray,
+                           LaneSpans<Lanes, Mask, 2>& out) {
+    torus_spans(k.major_radius(), k.minor_radius(), ray, out);
+}
+HWY_INLINE void lane_spans(const solids::Halfspace::Kernel&, const Ray8& ray,
+                           LaneSpans<Lanes, Mask, 1>& out) {
+    halfspace_spans(ray, out);
+}
+
+/// What an end of a span becomes on the base ray. All sums are of the same few doubles in the same
+/// order for single rays and packets.
+struct Placing {
+    double t0;     ///< of the context
+    double shift;  ///< of the leaf
+    std::uint32_t leaf;
+    std::uint32_t context;
+};
+
+HWY_INLINE Event event_at(const Placing& at, double s, double error, std::uint16_t face,
+                          bool enter) {
+    const double t = at.t0 + (at.shift + s);
+    const double rounding =
+        2.0 * kUnitRoundoff * (std::fabs(at.t0) + std::fabs(at.shift) + std::fabs(s));
+    const double total = std::isfinite(s) ? error + rounding : 0.0;
+    return {t - total, t, total, at.leaf, at.context, face, enter, false};
+}
+
+template <int L>
+HWY_INLINE void add_span(const Walker<L>& w, Lane& lane, const Event& enter, const Event& exit) {
+    if (w.mode != Mode::all && (exit.hi() < lane.start || enter.lo > lane.limit)) return;
+    lane.insert(enter);
+    if (exit.lo < kInfinity) lane.insert(exit);
+}
+
+/// Marks that the ray runs in the boundary of the leaf, from `enter` on; `error`: uncertainty of
+/// its place.
+template <int L>
+HWY_INLINE void add_uncertain(const Walker<L>& w, Lane& lane, Event enter, double exit_hi,
+                              double error) {
+    if (w.mode != Mode::all && (exit_hi < lane.start || enter.lo > lane.limit)) return;
+    if (!(enter.lo == enter.lo)) enter.lo = -kInfinity;
+    enter.t = enter.lo;
+    enter.error = error;
+    enter.uncertain = true;
+    lane.insert(enter);
+}
+
+/// Makes the rays' context inside an instance and puts its tree on the list. `place_error` is in
+/// the parent's frame.
+template <int L>
+void open_instance(Walker<L>& w, std::uint32_t parent, std::uint32_t leaf_index, const Frame& frame,
+                   std::uint32_t lanes, const Local<double>* locals) {
+    const auto index = static_cast<std::uint32_t>(w.contexts.size());
+    w.contexts.emplace_back();
+    const Context<L>& from = w.contexts[parent];
+    Context<L>& to = w.contexts[index];
+    const Leaf& leaf = from.solid->leaves[leaf_index];
+    const Look& look = w.data->looks[leaf.look];
+    to.solid = &w.data->solids[frame.index];
+    to.parent = parent;
+    to.leaf = leaf_index;
+    to.path = (from.path * 0x01000193U) ^ (from.solid->first_leaf + leaf_index + 1);
+    to.cuts = from.cuts != look.cuts;
+    to.material = look.material != csg::kNoMaterial ? look.material : from.material;
+    double nearest = kInfinity;
+    for (int i = 0; i < L; ++i) {
+        const Local<double>& l = locals[i];
+        const LocalRay<double>& r = l.ray;
+        const double o[3] = {r.ox, r.oy, r.oz};
+        const double d[3] = {r.dx, r.dy, r.dz};
+        to.t0[i] = from.t0[i] + l.shift;
+        to.error[i] = std::sqrt(r.ex * r.ex + r.ey * r.ey + r.ez * r.ez);
+        for (int a = 0; a < 3; ++a) {
+            to.o[a][i] = o[a];
+            to.d[a][i] = d[a];
+        }
+        set_box_ray(to, i, w.lanes[i].start, w.lanes[i].limit, w.mode == Mode::all);
+        if ((lanes >> i & 1U) != 0) {
+            // The solid lies within the unit ball about its centre, so it is not met earlier than
+            // this.
+            const double reach = 1.5 / std::sqrt(r.dd);
+            const double t = base_t(to.t0[i], -reach);
+            nearest = t < nearest ? t : nearest;
+        }
+    }
+    w.push({nearest, 0, index, 0, static_cast<std::uint8_t>(lanes)});
+}
+
+template <int L, class Visit>
+HWY_INLINE void visit_kernel(const Walker<L>& w, const Frame& frame, Visit&& visit) {
+    const auto& tables = w.data->kernels;
+    switch (frame.type) {
+#define RAYMO_KERNEL(n)                                                                     \
+    case n:                                                                                 \
+        if constexpr (n < solids::Inventory::kSize)                                         \
+            visit(std::get < n < solids::Inventory::kSize ? n : 0 > (tables)[frame.index]); \
+        break;
+        RAYMO_KERNEL(0)
+        RAYMO_KERNEL(1)
+        RAYMO_KERNEL(2)
+        RAYMO_KERNEL(3)
+        RAYMO_KERNEL(4)
+        RAYMO_KERNEL(5)
+        RAYMO_KERNEL(6)
+        RAYMO_KERNEL(7)
+        RAYMO_KERNEL(8)
+        RAYMO_KERNEL(9)
+        RAYMO_KERNEL(10)
+        RAYMO_KERNEL(11)
+        RAYMO_KERNEL(12)
+        RAYMO_KERNEL(13)
+        RAYMO_KERNEL(14)
+        RAYMO_KERNEL(15)
+#undef RAYMO_KERNEL
+        default:
+            break;
+    }
+    static_assert(solids::Inventory::kSize <= 16);
+}
+
+template <class K, int L>
+HWY_INLINE void add_spans(const Walker<L>& w, Lane& lane, const K& kernel,
+                          const Local<double>& local, const Placing& at) {
+    solids::SpanList spans;
+    kernel.spans(local.ray, spans);
+    if (spans.degenerate()) {
+        // Where in the leaf is not known: anywhere the ray comes near it.
+        const double reach = 2.0 / std::sqrt(local.ray.dd);
+        add_uncertain(w, lane, event_at(at, -reach, 0.0, 0, true), at.t0 + (at.shift + reach),
+                      local.place_error);
+    }
+    for (std::size_t i = 0; i < spans.size(); ++i) {
+        const solids::Span& span = spans[i];
+        add_span(w, lane, event_at(at, span.enter.s, span.enter.error, span.enter.face, true),
+                 event_at(at, span.exit.s, span.exit.error, span.exit.face, false));
+    }
+}
+
+HWY_INLINE void open_leaf(Walker<1>& w, std::uint32_t context, std::uint32_t index,
+                          std::uint32_t lanes) {
+    const Context<1>& c = w.contexts[context];
+    const Leaf& leaf = c.solid->leaves[index];
+    const Frame& frame = w.data->frames[leaf.frame];
+    ++w.leaves;
+    const Local<double> local = localise<double>(frame, leaf, c.o[0][0], c.o[1][0], c.o[2][0],
+                                                 c.d[0][0], c.d[1][0], c.d[2][0], c.error[0]);
+    if (frame.type == kInstanceType) {
+        open_instance(w, context, index, frame, lanes, &local);
+        return;
+    }
+    const Placing at{c.t0[0], local.shift, index, context};
+    visit_kernel(w, frame,
+                 [&](const auto& kernel) { add_spans(w, w.lanes[0], kernel, local, at); });
+}
+
+HWY_INLINE void open_leaf(Walker<8>& w, std::uint32_t context, std::uint32_t index,
+                          std::uint32_t lanes) {
+    const Context<8>& c = w.contexts[context];
+    const Leaf& leaf = c.solid->leaves[index];
+    const Frame& frame = w.data->frames[leaf.frame];
+    w.leaves += static_cast<std::uint64_t>(__builtin_popcount(lanes));
+    if (frame.type == kInstanceType) {
+        Local<double> locals[8];
+        for (int i = 0; i < 8; ++i) {
+            locals[i] = localise<double>(frame, leaf, c.o[0][i], c.o[1][i], c.o[2][i], c.d[0][i],
+                                         c.d[1][i], c.d[2][i], c.error[i]);
+        }
+        open_instance(w, context, index, frame, lanes, locals);
+        return;
+    }
+    visit_kernel(w, frame, [&]<class K>(const K& kernel) {
+        constexpr int kSpans = kSpansInLanes<K>;
+        if constexpr (kSpans == 0) {
+            for (std::uint32_t rest = lanes; rest != 0; rest &= rest - 1) {
+                const int i = __builtin_ctz(rest);
+                const auto local = localise<double>(frame, leaf, c.o[0][i], c.o[1][i], c.o[2][i],
+                                                    c.d[0][i], c.d[1][i], c.d[2][i], c.error[i]);
+                add_spans(w, w.lanes[i], kernel, local, {c.t0[i], local.shift, index, context});
+            }
+        } else {
+            for (int first = 0; first < 8; first += kLanes) {
+                const std::uint32_t here = (lanes >> first) & ((1U << kLanes) - 1U);
+                if (here == 0) continue;
+                const Local<Lanes> local = localise<Lanes>(
+                    frame, leaf, load(c.o[0] + first), load(c.o[1] + first), load(c.o[2] + first),
+                    load(c.d[0] + first), load(c.d[1] + first), load(c.d[2] + first),
+                    load(c.error + first));
+                LaneSpans<Lanes, Mask, kSpans> spans;
+                lane_spans(kernel, local.ray, spans);
+                const std::uint32_t uncertain = bits(spans.degenerate) & here;
+                std::uint32_t valid[kSpans];
+                std::uint32_t any = uncertain;
+                for (int k = 0; k < kSpans; ++k) any |= valid[k] = bits(spans.valid[k]) & here;
+                if (any == 0) continue;
+                alignas(64) double shift[8];
+                store(local.shift, shift);
+                if (uncertain != 0) {
+                    alignas(64) double dd[8];
+                    alignas(64) double place[8];
+                    store(local.ray.dd, dd);
+                    store(local.place_error, place);
+                    for (std::uint32_t rest = uncertain; rest != 0; rest &= rest - 1) {
+                        const int i = __builtin_ctz(rest);
+                        const Placing at{c.t0[first + i], shift[i], index, context};
+                        const double reach = 2.0 / std::sqrt(dd[i]);
+                        add_uncertain(w, w.lanes[first + i], event_at(at, -reach, 0.0, 0, true),
+                                      at.t0 + (at.shift + reach), place[i]);
+                    }
+                }
+                for (int k = 0; k < kSpans; ++k) {
+                    if (valid[k] == 0) continue;
+                    alignas(64) double enter[8], exit[8], enter_error[8], exit_error[8],
+                        enter_face[8], exit_face[8];
+                    store(spans.enter[k], enter);
+                    store(spans.exit[k], exit);
+                    store(spans.enter_error[k], enter_error);
+                    store(spans.exit_error[k], exit_error);
+                    store(spans.enter_face[k], enter_face);
+                    store(spans.exit_face[k], exit_face);
+                    for (std::uint32_t rest = valid[k]; rest != 0; rest &= rest - 1) {
+                        const int i = __builtin_ctz(rest);
+                        const Placing at{c.t0[first + i], shift[i], index, context};
+                        add_span(w, w.lanes[first + i],
+                                 event_at(at, enter[i], enter_error[i],
+                                          static_cast<std::uint16_t>(enter_face[i]), true),
+                                 event_at(at, exit[i], exit_error[i],
+                                          static_cast<std::uint16_t>(exit_face[i]), false));
+                    }
+                }
+            }
+        }
+    });
+}

@@ -1,0 +1,31 @@
+// Tables in which what is equal is stored once: kernels and looks for the whole scene, frames for
+// one compiled solid.
+#pragma once
+
+#include <unordered_map>
+#include <vector>
+
+#include "raymo/trace/data.hpp"
+
+namespace raymo::trace {
+
+class Tables {
+public:
+    explicit Tables(CompiledScene::Data& data) : data_(data) {}
+
+    /// Index of the kernel among those of its type.
+    [[nodiscard]] std::uint32_t kernel(const solids::AnyKernel& kernel);
+    /// Index into frames() of an equal frame, made where there is none.
+    [[nodiscard]] std::uint32_t frame(const Frame& frame);
+    [[nodiscard]] std::uint32_t look(const Look& look);
+    /// The frames of the compiled solid that is being made.
+    [[nodiscard]] std::vector<Frame>& frames() { return frames_; }
+
+private:
+    CompiledScene::Data& data_;
+    std::vector<Frame> frames_;
+    std::unordered_multimap<std::uint64_t, std::uint32_t> frame_index_;
+    std::unordered_multimap<std::uint64_t, std::uint32_t> look_index_;
+};
+
+}  // namespace raymo::trace

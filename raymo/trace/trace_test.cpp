@@ -1,0 +1,263 @@
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <random>
+
+#include "raymo/csg/model.hpp"
+#include "raymo/trace/tracer.hpp"
+
+namespace raymo::trace {
+namespace {
+
+using csg::Op;
+using csg::Solid;
+
+Solid primitive(std::string_view name, std::vector<solids::Argument> arguments) {
+    const auto rows = solids::inventory();
+    for (std::uint32_t i = 0; i < rows.size(); ++i) {
+        if (rows[i].schema->name != name) continue;
+        const auto params = rows[i].schema->params;
+        while (arguments.size() < params.size()) arguments.push_back(*params[arguments.size()].fallback);
+        return csg::primitive(i, arguments).value();
+    }
+    return {};
+}
+Solid block(Vec3 size) { return primitive("block", {size, false}); }
+Solid sphere(double r) { return primitive("sphere", {r}); }
+Solid cylinder(double r, double h) { return primitive("cylinder", {r, h, false}); }
+Solid moved(const Solid& s, Vec3 by) { return csg::transform(s, translation(by)).value(); }
+Solid turned(const Solid& s, Vec3 axis, double degrees) {
+    return csg::transform(s, rotation(unit(axis), degrees)).value();
+}
+Solid join(Solid a, Solid b) { return csg::boolean(Op::unite, {std::move(a), std::move(b)}); }
+Solid cut(Solid a, Solid b) { return csg::boolean(Op::difference, {std::move(a), std::move(b)}); }
+Solid meet(Solid a, Solid b) {
+    return csg::boolean(Op::intersection, {std::move(a), std::move(b)});
+}
+
+scene::Scene scene_of(std::vector<Solid> solids) {
+    scene::Scene out;
+    for (Solid& s : solids) out.parts.push_back({"part", std::move(s), {}});
+    return out;
+}
+
+/// Ends of the spans of one solid, in order.
+std::vector<double> ends(const Solid& solid, const Ray& ray) {
+    const auto compiled = compile(scene_of({solid}));
+    REQUIRE(compiled.has_value());
+    Tracer tracer(*compiled);
+    std::vector<std::vector<PartSpan>> spans;
+    tracer.spans(ray, spans);
+    std::vector<double> out;
+    for (const PartSpan& span : spans[0]) {
+        out.push_back(span.enter.t);
+        out.push_back(span.exit.t);
+    }
+    return out;
+}
+
+void check_ends(const std::vector<double>& found, const std::vector<double>& expected) {
+    REQUIRE(found.size() == expected.size());
+    for (std::size_t i = 0; i < found.size(); ++i)
+        CHECK(found[i] == doctest::Approx(expected[i]).epsilon(1e-12));
+}
+
+}  // namespace
+
+TEST_CASE("trace: a drilled bar leaves two pieces along the bar") {
+    const Solid bar = block({10, 2, 2});
+    const Solid drill = moved(cylinder(1.0, 4.0), {5, 1, -1});
+    check_ends(ends(cut(bar, drill), {{-5, 1, 1}, {1, 0, 0}}), {5, 9, 11, 15});
+}
+
+TEST_CASE("trace: faces that coincide leave nothing behind") {
+    const Solid a = block({10, 10, 10});
+    const Solid b = moved(a, {10, 0, 0});
+    const Ray along{{-5, 5, 5}, {1, 0, 0}};
+    check_ends(ends(join(a, b), along), {5, 25});
+    check_ends(ends(cut(a, a), along), {});
+    check_ends(ends(meet(a, b), along), {});
+    check_ends(ends(meet(a, a), along), {5, 15});
+    check_ends(ends(cut(a, b), along), {5, 15});
+    for (const double degrees : {30.0, 45.0, 123.456}) {
+        const Ray oblique{{-50, -40, -30}, {0.71, 0.52, 0.41}};
+        const auto whole = ends(turned(block({20, 10, 10}), {1, 2, 3}, degrees), oblique);
+        check_ends(ends(turned(join(a, b), {1, 2, 3}, degrees), oblique), whole);
+        check_ends(
+            ends(join(turned(a, {1, 2, 3}, degrees), turned(b, {1, 2, 3}, degrees)), oblique),
+            whole);
+        check_ends(ends(turned(meet(a, b), {1, 2, 3}, degrees), oblique), {});
+    }
+}
+
+TEST_CASE("trace: a ray in a shared face meets the union whole and the intersection not at all") {
+    const Solid a = block({10, 10, 10});
+    const Solid b = moved(a, {0, 0, 10});
+    const Ray in_face{{-5, 5, 10}, {1, 0, 0}};
+    check_ends(ends(join(a, b), in_face), {5, 15});
+    check_ends(ends(meet(a, b), in_face), {});
+    const Ray skew{{-5, -3, 10}, {1, 0.8, 0}};
+    CHECK(ends(join(turned(a, {0, 1, 0}, 0.0), b), skew).size() == 2);
+}
+
+TEST_CASE("trace: a distant eye costs no accuracy") {
+    check_ends(ends(sphere(1.0), {{-1e12, 0.6, 0}, {1, 0, 0}}), {1e12 - 0.8, 1e12 + 0.8});
+    const auto far = ends(cut(sphere(1.0), sphere(0.5)), {{-1e12, 0, 0}, {1, 0, 0}});
+    CHECK(far.size() == 4);
+}
+
+TEST_CASE("trace: a ray that starts on a surface does not meet it again") {
+    const auto compiled = compile(scene_of({sphere(1.0), moved(block({8, 8, 1}), {-4, -4, -2})}));
+    REQUIRE(compiled.has_value());
+    Tracer tracer(*compiled);
+    std::mt19937_64 random(7);
+    std::uniform_real_distribution<double> uniform(-1, 1);
+    int met = 0;
+    for (int i = 0; i < 20000; ++i) {
+        const Vec3 from{uniform(random), uniform(random), 5.0};
+        RayQuery query;
+        query.ray = {{0, 0, 5}, Vec3{uniform(random), uniform(random), 0} * 0.2 + Vec3{0, 0, -1}};
+        Hit hit;
+        if (!tracer.first_hit(query, hit)) continue;
+        RayQuery next;
+        next.ray = {hit.point, Vec3{uniform(random), uniform(random), uniform(random)}};
+        next.start = hit.surface;
+        next.start_error = hit.point_error;
+        if (hit.part != 0 || dot(next.ray.direction, hit.normal) <= 0.0) continue;
+        Hit second;
+        if (tracer.first_hit(next, second)) {
+            CHECK(second.part == 1);  // the sphere is convex: only the block is left to meet
+            ++met;
+        }
+    }
+    CHECK(met > 300);
+}
+
+TEST_CASE("trace: packets and single rays give the same bits") {
+    std::vector<Solid> parts;
+    std::mt19937_64 random(11);
+    std::uniform_real_distribution<double> uniform(0, 1);
+    for (int i = 0; i < 60; ++i) {
+        const Vec3 at{uniform(random) * 10, uniform(random) * 10, uniform(random) * 10};
+        const Vec3 axis{uniform(random), uniform(random), uniform(random) + 0.1};
+        Solid s;
+        switch (i % 5) {
+            case 0:
+                s = sphere(1.0);
+                break;
+            case 1:
+                s = block({1, 2, 1.5});
+                break;
+            case 2:
+                s = cylinder(0.7, 2.0);
+                break;
+            case 3:
+                s = primitive("cone", {1.0, 0.3, 2.0});
+                break;
+            default:
+                s = primitive("torus", {1.0, 0.3});
+                break;
+        }
+        s = moved(turned(s, axis, 360 * uniform(random)), at);
+        parts.push_back(i % 3 == 0 ? cut(s, moved(sphere(0.8), at)) : s);
+    }
+    const auto compiled = compile(scene_of(parts));
+    REQUIRE(compiled.has_value());
+    Tracer tracer(*compiled);
+    int hits = 0;
+    for (int k = 0; k < 2000; ++k) {
+        std::vector<RayQuery> queries(8);
+        const Vec3 eye{-20, uniform(random) * 10, uniform(random) * 10};
+        const Vec3 aim{10, uniform(random) * 10, uniform(random) * 10};
+        for (RayQuery& q : queries) {
+            q.ray = {eye, aim - eye + Vec3{0, uniform(random), uniform(random)}};
+        }
+        Hit together[8];
+        bool found[8];
+        bool blocked[8];
+        tracer.first_hits(queries, together, found);
+        tracer.occluded(queries, blocked);
+        for (std::size_t i = 0; i < 8; ++i) {
+            Hit alone;
+            REQUIRE(tracer.first_hit(queries[i], alone) == found[i]);
+            CHECK(tracer.occluded(queries[i]) == blocked[i]);
+            CHECK(blocked[i] == found[i]);
+            if (!found[i]) continue;
+            ++hits;
+            CHECK(alone.t == together[i].t);
+            CHECK(alone.error == together[i].error);
+            CHECK(alone.normal == together[i].normal);
+            CHECK(alone.surface == together[i].surface);
+            CHECK(dot(alone.normal, queries[i].ray.direction) <= 0.0);
+        }
+    }
+    CHECK(hits > 2000);
+}
+
+TEST_CASE("trace: a solid without end is an error that names it; cut to size it is fine") {
+    const Solid half = primitive("halfspace", {Vec3{0, 0, 1}, 0.0});
+    const auto open = compile(scene_of({half}));
+    REQUIRE(!open.has_value());
+    CHECK(open.error().code == ErrorCode::unbounded);
+    CHECK(open.error().message.find("halfspace") != std::string::npos);
+    check_ends(ends(meet(sphere(2.0), half), {{0, 0, 5}, {0, 0, -1}}), {5, 7});
+    check_ends(ends(cut(sphere(2.0), half), {{0, 0, 5}, {0, 0, -1}}), {3, 5});
+}
+
+TEST_CASE("trace: shared solids become instances that answer like copies") {
+    // 2 * 128^3 leaves: more than are flattened.
+    Solid s = join(sphere(0.3), moved(block({0.2, 0.2, 0.2}), {0.3, 0, 0}));
+    for (int axis = 0; axis < 3; ++axis) {
+        std::vector<Solid> row;
+        for (int i = 0; i < 128; ++i) {
+            Vec3 by;
+            by[axis] = i;
+            row.push_back(moved(s, by));
+        }
+        s = csg::boolean(Op::unite, row);
+    }
+    const auto compiled = compile(scene_of({s}));
+    REQUIRE(compiled.has_value());
+    CHECK(compiled->leaf_count() == 2.0 * 128 * 128 * 128);
+    CHECK(compiled->stored_leaves() < 2000);
+    Tracer tracer(*compiled);
+    std::vector<std::vector<PartSpan>> spans;
+    tracer.spans({{-1, 5, 7}, {1, 0, 0}}, spans);
+    REQUIRE(spans[0].size() == 128);
+    for (std::size_t i = 0; i < 128; ++i) {
+        CHECK(spans[0][i].enter.t == doctest::Approx(0.7 + static_cast<double>(i)).epsilon(1e-12));
+    }
+    RayQuery query;
+    query.ray = {{-1, 5, 7}, {1, 0, 0}};
+    Hit hit;
+    REQUIRE(tracer.first_hit(query, hit));
+    CHECK(hit.t == doctest::Approx(0.7).epsilon(1e-12));
+    CHECK(tracer.leaf_info(hit.surface).primitive == "sphere");
+    CHECK(hit.normal.x == doctest::Approx(-1.0));
+}
+
+TEST_CASE("trace: a cutter without material shows what it cuts") {
+    scene::Scene scene;
+    scene.materials.resize(3);
+    const Solid bar = csg::boolean(Op::unite, {csg::paint(block({5, 2, 2}), 0),
+                                               csg::paint(moved(block({5, 2, 2}), {5, 0, 0}), 1)});
+    const Solid drill = moved(block({10, 1, 10}), {0, 0.5, 1});
+    scene.parts.push_back({"bar", cut(bar, drill), {}});
+    scene.parts.push_back({"other", moved(cut(bar, csg::paint(drill, 2)), {0, 10, 0}), {}});
+    const auto compiled = compile(scene);
+    REQUIRE(compiled.has_value());
+    Tracer tracer(*compiled);
+    const auto material_at = [&](double x, double y) {
+        RayQuery query;
+        query.ray = {{x, y, 50}, {0, 0, -1}};
+        Hit hit;
+        REQUIRE(tracer.first_hit(query, hit));
+        CHECK(hit.point.z == doctest::Approx(1.0));
+        return hit.material;
+    };
+    CHECK(material_at(2, 1) == 0);
+    CHECK(material_at(7, 1) == 1);
+    CHECK(material_at(2, 11) == 2);
+}
+
+}  // namespace raymo::trace

@@ -1,0 +1,88 @@
+// One text for all instruction sets: this file includes itself once for each (Highway's
+// foreach_target).
+//
+// A single ray is tested against the eight boxes of a node at once; a packet of eight rays against
+// one box at a time. Leaves compute the rays of a packet side by side where their kernel can
+// (solids/kernels.inl), with the same operations in the same order as for a single ray, so that
+// both give equal bits. Boxes only choose what is looked at; they have no part in the result.
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "raymo/trace/walk.cpp"
+// One ray at a time (the baseline of the build), SSE4, AVX2 and AVX-512; the steps between bring
+// little.
+#define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_AVX3_DL)
+
+#include "raymo/trace/walk.hpp"
+
+#include <hwy/foreach_target.h>  // must stand before highway.h
+#include <hwy/highway.h>
+
+#include <cmath>
+#include <limits>
+#include <type_traits>
+
+#include "raymo/math/lanes.hpp"
+#include "raymo/math/tolerance.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace raymo::trace {
+namespace HWY_NAMESPACE {
+#include "raymo/trace/lanes-inl.hpp"
+using solids::LaneSpans;
+using solids::LocalRay;
+#include "raymo/solids/kernels.inl"
+#include "raymo/trace/localise.inl"
+//
+#include "raymo/trace/boxes-inl.hpp"
+#include "raymo/trace/leaves-inl.hpp"
+
+/// Opens what lies nearest until every ray has its answer.
+template <int L>
+HWY_INLINE void walk_all(Walker<L>& w) {
+    w.unopened.clear();
+    w.push({-kInfinity, 0, 0, 0, static_cast<std::uint8_t>(w.active)});
+    while (!w.unopened.empty()) {
+        const Unopened box = w.unopened.back();
+        for (std::uint32_t rest = w.active; rest != 0; rest &= rest - 1) {
+            const int i = __builtin_ctz(rest);
+            Lane& lane = w.lanes[i];
+            if (lane.head < lane.events.size() && lane.events[lane.head].lo < box.t)
+                w.advance(i, box.t);
+            if (lane.done) w.active &= ~(1U << i);
+        }
+        if (w.active == 0) return;
+        w.unopened.pop_back();
+        const std::uint32_t lanes = box.lanes & w.active;
+        if (lanes == 0) continue;
+        if (box.count == 0) {
+            open_node(w, box, lanes);
+        } else {
+            for (std::uint32_t k = 0; k < box.count; ++k)
+                open_leaf(w, box.context, box.ref + k, lanes);
+        }
+    }
+    for (std::uint32_t rest = w.active; rest != 0; rest &= rest - 1) {
+        const int i = __builtin_ctz(rest);
+        w.advance(i, kInfinity);
+        w.finish(i);
+    }
+}
+
+void walk1(Walker<1>& w) { walk_all(w); }
+void walk8(Walker<8>& w) { walk_all(w); }
+
+}  // namespace HWY_NAMESPACE
+}  // namespace raymo::trace
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace raymo::trace {
+
+HWY_EXPORT(walk1);
+HWY_EXPORT(walk8);
+
+void walk(Walker<1>& walker) { HWY_DYNAMIC_DISPATCH(walk1)(walker); }
+void walk(Walker<8>& walker) { HWY_DYNAMIC_DISPATCH(walk8)(walker); }
+
+}  // namespace raymo::trace
+#endif

@@ -1,0 +1,14 @@
+// The walk of rays through the tree of boxes, compiled for each instruction set and chosen at run
+// time.
+#pragma once
+
+#include "raymo/trace/walker.hpp"
+
+namespace raymo::trace {
+
+/// Traces all active rays of `walker` from its context 0 to the end. `walker.lanes` hold the
+/// answers.
+void walk(Walker<1>& walker);
+void walk(Walker<8>& walker);
+
+}  // namespace raymo::trace
