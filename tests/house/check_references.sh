@@ -37,6 +37,6 @@ for page in $(printf '%s\n' "$texts" | grep '\.md$'); do
 done
 
 later='TO''DO|FIX''ME|X''XX'
-left=$(printf '%s\n' "$texts" | xargs grep -nE "$later") && complain "left for later:
+left=$(printf '%s\n' "$texts" | xargs grep -nwE "$later") && complain "left for later:
 $left"
 exit $failed
