@@ -52,10 +52,11 @@ private:
 struct Node {
     mutable std::atomic<std::uint32_t> references{1};
     NodeKind kind;
-    Op op = Op::unite;          ///< of a boolean
-    SourceSpan span;            ///< the expression that made the node
-    double leaf_count = 1.0;    ///< leaves below, each counted as often as it is instanced; may be huge
-    double node_count = 1.0;    ///< nodes below, counted the same way
+    Op op = Op::unite;  ///< of a boolean
+    SourceSpan span;    ///< the expression that made the node
+    double leaf_count =
+        1.0;  ///< leaves below, each counted as often as it is instanced; may be huge
+    double node_count = 1.0;  ///< nodes below, counted the same way
 
     explicit Node(NodeKind k) : kind(k) {}
 };
@@ -72,7 +73,8 @@ struct TransformNode : Node {
 };
 struct BooleanNode : Node {
     BooleanNode() : Node(NodeKind::boolean) {}
-    std::vector<Solid> operands;  ///< at least one; order matters for `difference` and for coincident materials
+    std::vector<Solid>
+        operands;  ///< at least one; order matters for `difference` and for coincident materials
 };
 struct PaintNode : Node {
     PaintNode() : Node(NodeKind::paint) {}
@@ -80,17 +82,22 @@ struct PaintNode : Node {
     Solid child;
 };
 
-[[nodiscard]] inline const LeafNode& as_leaf(const Node& n) { return static_cast<const LeafNode&>(n); }
+[[nodiscard]] inline const LeafNode& as_leaf(const Node& n) {
+    return static_cast<const LeafNode&>(n);
+}
 [[nodiscard]] inline const TransformNode& as_transform(const Node& n) {
     return static_cast<const TransformNode&>(n);
 }
 [[nodiscard]] inline const BooleanNode& as_boolean(const Node& n) {
     return static_cast<const BooleanNode&>(n);
 }
-[[nodiscard]] inline const PaintNode& as_paint(const Node& n) { return static_cast<const PaintNode&>(n); }
+[[nodiscard]] inline const PaintNode& as_paint(const Node& n) {
+    return static_cast<const PaintNode&>(n);
+}
 
 /// A leaf of the inventory's kind `primitive`. Errors: those of the primitive's schema and prepare().
-[[nodiscard]] Result<Solid> primitive(std::uint32_t index, std::span<const solids::Argument> arguments,
+[[nodiscard]] Result<Solid> primitive(std::uint32_t index,
+                                      std::span<const solids::Argument> arguments,
                                       SourceSpan span = {});
 /// The image of a solid. Error: singular when the map can not be inverted to working precision or is not finite.
 [[nodiscard]] Result<Solid> transform(Solid child, const Affine& map, SourceSpan span = {});
