@@ -1,6 +1,7 @@
 // Prints docs/manual/solids.md from the schemas of the inventory.
 #include <array>
 #include <charconv>
+#include <cmath>
 #include <iostream>
 #include <string>
 
@@ -43,15 +44,27 @@ std::string range_words(const Param& param) {
     return (param.min_included ? "at least " : "greater than ") + shown(param.min);
 }
 
-std::string fallback_words(const Param& param) {
-    if (!param.fallback) return "required";
-    if (const bool* flag = std::get_if<bool>(&*param.fallback)) return *flag ? "`true`" : "`false`";
-    if (const double* number = std::get_if<double>(&*param.fallback))
-        return "`" + shown(*number) + "`";
-    if (const Vec3* v = std::get_if<Vec3>(&*param.fallback)) {
-        return "`(" + shown((*v)[0]) + ", " + shown((*v)[1]) + ", " + shown((*v)[2]) + ")`";
+/// The value that a parameter has when it is left out, as the language writes it.
+std::string fallback(const solids::Argument& value) {
+    if (const bool* flag = std::get_if<bool>(&value)) return *flag ? "true" : "false";
+    if (const double* number = std::get_if<double>(&value)) return shown(*number);
+    std::string out = "(";
+    if (const Vec3* v = std::get_if<Vec3>(&value)) {
+        for (int axis = 0; axis < 3; ++axis) out += (axis > 0 ? ", " : "") + shown((*v)[axis]);
+    } else if (const auto* m = std::get_if<solids::Matrix4>(&value)) {
+        for (std::size_t i = 0; i < m->size(); ++i) out += (i > 0 ? ", " : "") + shown((*m)[i]);
     }
-    return "a matrix";
+    return out + ")";
+}
+
+std::string fallback_words(const Param& param) {
+    std::string out = "required";
+    if (param.fallback) {
+        out = "`";
+        out += fallback(*param.fallback);
+        out += "`";
+    }
+    return out;
 }
 
 std::string signature(const solids::Schema& schema) {
@@ -60,10 +73,7 @@ std::string signature(const solids::Schema& schema) {
     for (const Param& param : schema.params) {
         out += separator;
         out += param.name;
-        if (param.fallback) {
-            const std::string value = fallback_words(param);
-            out += ": " + value.substr(1, value.size() - 2);
-        }
+        if (param.fallback) out += ": " + fallback(*param.fallback);
         separator = ", ";
     }
     return out + ")";
@@ -90,7 +100,7 @@ void print(const solids::Entry& entry) {
               << "| argument | meaning | kind | must be | default |\n|---|---|---|---|---|\n";
     for (const Param& param : schema.params) {
         std::cout << "| `" << param.name << "` | " << param.doc;
-        if (!param.diameter.empty()) std::cout << "; `" << param.diameter << "` gives twice this";
+        if (!param.diameter.empty()) std::cout << "; or `" << param.diameter << "`, twice that";
         std::cout << " | " << kind_words(param.kind) << " | " << range_words(param) << " | "
                   << fallback_words(param) << " |\n";
     }
