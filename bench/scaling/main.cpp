@@ -101,15 +101,16 @@ std::vector<double> measure(const raymo::bench::Family& family, const Options& o
         }
         rows.push_back({leaves, *std::move(compiled), cpu_seconds() - start});
     }
-    const raymo::scene::View view(family.camera, options.side, options.side);
+    const int side = std::max(options.side / family.coarser / 4 * 4, 4);
+    const raymo::scene::View view(family.camera, side, side);
     for (int run = 0; run < options.runs; ++run) {
         for (Row& row : rows) {
-            const Measured measured = trace_picture(row.scene, view, options.side);
+            const Measured measured = trace_picture(row.scene, view, side);
             row.hits = measured.hits;
             row.seconds.push_back(measured.seconds);
         }
     }
-    const double rays = static_cast<double>(options.side) * options.side;
+    const double rays = static_cast<double>(side) * side;
     std::printf("  %9s %9s %8s %9s %9s %11s %9s\n", "leaves", "ns/ray", "(min)", "growth", "hits",
                 "compile ms", "MiB");
     std::vector<double> medians;
@@ -159,7 +160,7 @@ int main(int count, char** words) {
         std::fprintf(
             stderr,
             "usage: raymo_scaling [--side PIXELS] [--runs N] [--most LEAVES] [--family NAME]\n"
-            "PIXELS: a multiple of 4; NAME: plate, alternating, hedgehog or needles\n");
+            "PIXELS: a multiple of 4; NAME: plate, chain, rings, hedgehog or needles\n");
         return 2;
     }
     bool kept = true;

@@ -3,6 +3,8 @@
 #include <array>
 #include <cmath>
 #include <initializer_list>
+#include <numeric>
+#include <optional>
 #include <random>
 #include <utility>
 #include <vector>
@@ -106,21 +108,37 @@ Result<Solid> plate(std::size_t holes) {
         b.boolean(csg::Op::difference, {sheet, b.boolean(csg::Op::unite, std::move(drilled))}));
 }
 
-/// a - (b - (c - ...)): balls on a spiral, each biting the one before it, nested as deep as there
-/// are leaves.
-Result<Solid> alternating(std::size_t leaves) {
+/// ((((plate + stud) - dent) + stud) - dent) ...: a chain as deep as there are leaves, each of which matters only where
+/// it is. Neighbours in the chain are far apart on the plate.
+Result<Solid> chain(std::size_t leaves) {
     Builder b;
-    const double n = static_cast<double>(leaves);
-    const double radius = 60.0 / std::sqrt(n);
-    const Solid ball = b.sphere(radius);
+    const std::size_t columns =
+        static_cast<std::size_t>(std::ceil(std::sqrt(static_cast<double>(leaves))));
+    std::vector<std::size_t> cells(columns * columns);
+    std::iota(cells.begin(), cells.end(), std::size_t{0});
+    std::mt19937_64 random(3);
+    for (std::size_t i = cells.size(); i-- > 1;) std::swap(cells[i], cells[random() % (i + 1)]);
+    const double pitch = 100.0 / static_cast<double>(columns);
+    const Solid ball = b.sphere(0.45 * pitch);
+    Solid tree = b.block({100, 100, 10});
+    for (std::size_t i = 0; i + 1 < leaves; ++i) {
+        const double x = (static_cast<double>(cells[i] % columns) + 0.5) * pitch - 50.0;
+        const double y = (static_cast<double>(cells[i] / columns) + 0.5) * pitch - 50.0;
+        const csg::Op op = i % 2 == 0 ? csg::Op::unite : csg::Op::difference;
+        tree = b.boolean(op, {std::move(tree), b.moved(ball, {x, y, 5.0})});
+    }
+    return b.finished(tree);
+}
+
+/// plate - (disc - (disc - (disc - ...))): rings, each disc standing in all the ones before it, so that a point in the
+/// middle is decided by every leaf.
+Result<Solid> rings(std::size_t leaves) {
+    Builder b;
+    const double width = 50.0 / static_cast<double>(leaves);
     Solid tail;
     for (std::size_t i = leaves; i-- > 0;) {
-        // An Archimedean spiral with a step of 0.8 radii along the curve and 1.5 radii from turn to
-        // turn.
-        const double turn = 1.5 * radius / 6.283185307179586;
-        const double angle = std::sqrt(2.0 * 0.8 * radius * static_cast<double>(i + 4) / turn);
-        const Vec3 centre{turn * angle * std::cos(angle), turn * angle * std::sin(angle), 0.0};
-        Solid here = b.moved(ball, centre);
+        Solid here = i == 0 ? b.block({100, 100, 10})
+                            : b.cylinder(50.0 - width * static_cast<double>(i), 20.0);
         tail = tail ? b.boolean(csg::Op::difference, {std::move(here), std::move(tail)})
                     : std::move(here);
     }
@@ -171,10 +189,12 @@ std::span<const Family> families() {
                                                            10'000, 100'000, 1'000'000};
     static constexpr std::array<std::size_t, 5> kToHundredThousand{10, 100, 1'000, 10'000, 100'000};
     static constexpr std::array<std::size_t, 3> kToThousand{10, 100, 1'000};
-    static const std::array<Family, 4> kFamilies{
+    static const std::array<Family, 5> kFamilies{
         Family{"plate", "plate with n holes", plate, camera({30, -70, 110}, 40), kToMillion},
-        Family{"alternating", "a - (b - (c - ...)), n deep", alternating,
-               camera({30, -70, 110}, 60), kToHundredThousand},
+        Family{"chain", "(((plate + stud) - dent) + stud) - ..., n deep", chain,
+               camera({30, -70, 110}, 40), kToHundredThousand},
+        Family{"rings", "plate - (disc - (disc - ...)), n deep, one inside the other", rings,
+               camera({30, -70, 110}, 40), kToThousand, 4},
         Family{"hedgehog", "cube minus n rods through one point", hedgehog,
                camera({90, -130, 100}, 40), kToThousand},
         Family{"needles", "union of n long thin rods", needles, camera({90, -130, 100}, 30),

@@ -18,6 +18,8 @@ struct Family {
     Result<csg::Solid> (*build)(std::size_t leaves);
     scene::Camera camera;
     std::span<const std::size_t> sizes;
+    int coarser =
+        1;  ///< the picture has so many times fewer pixels each way, where rays are expensive
 };
 
 [[nodiscard]] std::span<const Family> families();
