@@ -61,7 +61,10 @@ format: ## format the sources
 	@scripts/sources | xargs clang-format-14 -i
 
 docs: release ## rewrite the pages and pictures that follow from the sources
-	@scripts/make-documents $(raymo)
+	@scripts/install-dependencies build test
+	@[ -e build/dev/build.ninja ] || cmake --preset dev
+	@cmake --build --preset dev --target manual_solids
+	@scripts/make-documents $(raymo) build/dev/tests/house/manual_solids
 
 clean: ## remove everything that was built
 	rm -rf build out

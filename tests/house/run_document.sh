@@ -3,6 +3,7 @@
 #
 #   ```raymo            a whole program: `raymo check` must accept it
 #   ```raymo cup.raymo  the same, and commands further down find it under that name
+#   ```raymo cup.raymo exit 1   a program that must be refused with that exit code
 #   ```console          lines "$ command" are run and must succeed; the lines below one are what it prints
 #   ```console exit 1   the same for commands that end with that exit code
 #
@@ -63,12 +64,16 @@ run_command() {  # uses command, expected, status
 
 for block in block-*; do
     [ -e "$block" ] || break
-    read -r kind first second _ < "$block"
+    read -r kind first second third _ < "$block"
     line=$(sed -n '1s/.*@//p' "$block")
     if [ "$kind" = raymo ]; then
         case $first in @*) name=$block.raymo ;; *) name=$first ;; esac
         sed 1d "$block" > "$name"
-        raymo check "$name" > actual.txt 2>&1 || { complain "the program is not accepted"; cat actual.txt; }
+        status=0
+        [ "$second" = exit ] && status=$third
+        raymo check "$name" > actual.txt 2>&1
+        got=$?
+        [ "$got" -eq "$status" ] || { complain "raymo check: exit code $got, not $status"; cat actual.txt; }
     else
         status=0
         [ "$first" = exit ] && status=$second
