@@ -2,7 +2,7 @@
 
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
-.PHONY: help demo test laws bench fuzz asan tsan tidy format docs clean install-dependencies release
+.PHONY: help demo test laws bench fuzz asan tsan tidy format examples docs clean install-dependencies release
 MAKEFLAGS += --no-print-directory
 
 FUZZ_SECONDS ?= 1200
@@ -60,11 +60,14 @@ format: ## format the sources
 	@scripts/install-dependencies lint
 	@scripts/sources | xargs clang-format-14 -i
 
-docs: release ## rewrite the pages and pictures that follow from the sources
+examples: release ## draw the pictures of the examples
+	@scripts/draw-examples $(raymo)
+
+docs: examples ## rewrite the pages and pictures that follow from the sources
 	@scripts/install-dependencies build test
 	@[ -e build/dev/build.ninja ] || cmake --preset dev
 	@cmake --build --preset dev --target manual_solids
-	@scripts/make-documents $(raymo) build/dev/tests/house/manual_solids
+	@build/dev/tests/house/manual_solids > docs/manual/solids.md
 
 clean: ## remove everything that was built
 	rm -rf build out
