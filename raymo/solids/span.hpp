@@ -14,7 +14,7 @@ namespace raymo::solids {
 enum class Where : std::uint8_t { out, on, in };
 
 /// A ray in a leaf's own frame: x(s) = o + s d, where o is the ray's point nearest to the frame's origin.
-/// `e` bounds, component by component, how far the computed point may lie from the true one, for |s| |d| <= 1.5, that is
+/// `e` bounds, component by component, how far the computed point may lie from the true one, for |s| |d| <= 1.75, that is
 /// anywhere within the leaf (it also holds the leaf's own placement error, and what is left of o.d: |o.d| <= |e| |d|).
 /// Beyond, the bound grows in proportion to |s|. R is double, or a vector type with one ray a lane (math/lanes.hpp).
 template <class R>
