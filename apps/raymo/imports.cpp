@@ -1,0 +1,53 @@
+#include "apps/raymo/imports.hpp"
+
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <memory>
+
+#include "apps/raymo/system/files.hpp"
+#include "apps/raymo/text.hpp"
+
+namespace raymo::app {
+namespace {
+
+std::string without_links(const std::string& path) {
+    const std::unique_ptr<char, decltype(&std::free)> real(realpath(path.c_str(), nullptr),
+                                                           &std::free);
+    return real ? std::string(real.get()) : std::string();
+}
+
+/// "models/" of "models/cup.raymo"; empty for a plain name.
+std::string folder_of(const std::string& path) {
+    const std::size_t slash = path.rfind('/');
+    return slash == std::string::npos ? std::string() : path.substr(0, slash + 1);
+}
+
+}  // namespace
+
+Imports::Imports(const std::string& main, const Console& console) : console_(console) {
+    if (main != "-") shown_ = folder_of(main);
+    root_ = without_links(shown_.empty() ? "." : shown_);
+    if (!root_.empty() && root_.back() != '/') root_ += '/';
+}
+
+Result<std::string> Imports::load(const std::string& from, const std::string& path,
+                                  std::string& resolved) const {
+    const std::string name = path.starts_with('/') ? path : folder_of(from) + path;
+    if (name.find('\0') != std::string::npos)
+        return fail(ErrorCode::io, "a path can not hold a zero byte");
+    resolved = without_links(name);
+    if (resolved.empty()) {
+        return fail(ErrorCode::io, "can not read " + in_quotes(name) + ": " + std::strerror(errno));
+    }
+    if (root_.empty() || !resolved.starts_with(root_)) {
+        return fail(ErrorCode::io, in_quotes(path) + " lies outside of the folder of the main file",
+                    "move the file into that folder");
+    }
+    Attempt<std::string> text = read_text(resolved, console_);
+    if (!text) return fail(ErrorCode::io, text.error().message, text.error().hint);
+    resolved = shown_ + resolved.substr(root_.size());
+    return *std::move(text);
+}
+
+}  // namespace raymo::app
