@@ -4,7 +4,7 @@
 // thresholds, rounded up to floats, decide exactly: x gets code c + 1 rather than c when x >=
 // threshold[c]. To find c, floats from 2^-13 up to 1 are put in classes by their exponent and their
 // first 8 bits of fraction. Within a class x grows by less than 2^-8 of itself, while neighbouring
-// thresholds differ by more than 2.4 / 256 of themselves (decoding is at most a power 2.4 of the
+// thresholds differ by more than 2.2 / 256 of themselves (decoding is at most a power 2.4 of the
 // code, and c <= 255), so a class holds at most one threshold.
 #include "raymo/image/film.hpp"
 

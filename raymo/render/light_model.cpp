@@ -37,16 +37,17 @@ double fresnel(double cosine, double index) {
     return 0.5 * across * across * (1.0 + ratio * ratio);
 }
 
-double index_of_reflectance(double reflectance) {
-    const double root = std::sqrt(reflectance);
-    return (1.0 + root) / (1.0 - root);
-}
-
-Interface::Interface(double at_normal_incidence) : value_(clamp01(at_normal_incidence)) {
-    // So near to 1 that the growth can no longer be seen, and the index no longer computed well.
-    constexpr double kPerfect = 0.9999;
-    fixed_ = value_ == 0.0 || value_ >= kPerfect;
-    if (!fixed_) index_ = index_of_reflectance(value_);
+Interface::Interface(double at_normal_incidence, double index)
+    : value_(clamp01(at_normal_incidence)),
+      index_(index > 1.0 ? std::min(index, 3.7) : 1.0),
+      fixed_(value_ == 0.0 || value_ == 1.0) {
+    const double own = fresnel(1.0, index_);
+    if (value_ < own) {
+        scale_ = value_ / own;
+    } else {
+        scale_ = (1.0 - value_) / (1.0 - own);
+        offset_ = 1.0 - scale_;
+    }
 }
 
 Facets::Facets(scene::Facets kind, double roughness) : kind_(kind) {
@@ -78,8 +79,8 @@ double Facets::slow_density(double cosine) const {
 }
 
 Surface::Surface(const scene::Material& material)
-    : specular(material.specular),
-      mirror(material.mirror),
+    : specular(material.specular, material.ior),
+      mirror(material.mirror, material.ior),
       facets(material.facets, material.roughness) {
     const Colour color = clamp01(material.color);
     transmission = clamp01(material.transmission);

@@ -5,13 +5,15 @@
 // l, and h halfway between them, the facets reflect
 //     f = F(h.l) D(n.h) G / (4 n.l n.v)                                                     [1/sr]
 // where
-//     D  density of facet normals, scaled so that the facets' projections cover the surface:
-//     integral of D n.h = 1 G  = min(1, 2 n.h n.v / v.h, 2 n.h n.l / v.h), facets hiding each other
-//     in symmetric grooves F  Fresnel's reflectance of one facet, exact for a dielectric.
-// `specular` and `mirror` state reflectances at normal incidence; the index of refraction that has
-// this reflectance gives its growth towards grazing. A metal's reflectance starts from its colour
-// instead of white. What the interface lets pass, going in and again coming out, meets the body:
-// diffuse reflection, or transmission. Why: docs/decisions/light-model.md.
+//     D  density of facet normals, scaled so that the facets cover the surface: its integral with
+//        n.h over all directions is 1
+//     G  = min(1, 2 n.h n.v / v.h, 2 n.h n.l / v.h), facets hiding each other in grooves
+//     F  reflectance of one facet.
+// `specular` and `mirror` state reflectances at normal incidence; with the angle they grow as those
+// of a dielectric with the material's index of refraction do. A metal's reflectance starts from its
+// colour instead of white.
+// What the interface lets pass, going in and again coming out, meets the body: diffuse reflection,
+// or transmission. Why: docs/decisions/light-model.md.
 #pragma once
 
 #include <cstdint>
@@ -26,19 +28,20 @@ using scene::Colour;
 /// incidence; `index` = (index behind) / (index before), > 0. 1 beyond the critical angle.
 [[nodiscard]] double fresnel(double cosine, double index);
 
-/// The index of refraction, >= 1, of the dielectric that reflects the part `reflectance`, 0 <=
-/// reflectance < 1, at normal incidence: the inverse of fresnel(1, index).
-[[nodiscard]] double index_of_reflectance(double reflectance);
-
-/// Fresnel reflectance that is stated by its value at normal incidence.
+/// Reflectance that is stated by its value r at normal incidence and grows as Fresnel's F of an
+/// index of refraction:
+///     r / F(0) F                              for r below F(0): an interface that is partly covered
+///     1 - (1 - r) (1 - F) / (1 - F(0))        above: it reflects more, and still all at grazing
+/// Both are F itself where r is F(0).
 class Interface {
 public:
     Interface() = default;
-    explicit Interface(double at_normal_incidence);
+    /// `index` is brought into 1..3.7, where F never falls as the angle grows.
+    Interface(double at_normal_incidence, double index);
     [[nodiscard]] double operator()(double cosine) const {
-        return fixed_ ? value_ : fresnel(cosine, index_);
+        return fixed_ ? value_ : offset_ + scale_ * fresnel(cosine, index_);
     }
-    /// Largest value: 0 for no interface at all.
+    /// True when it reflects nothing at any angle.
     [[nodiscard]] bool none() const { return fixed_ && value_ == 0.0; }
     /// At normal incidence.
     [[nodiscard]] double value() const { return value_; }
@@ -46,6 +49,8 @@ public:
 private:
     double value_ = 0.0;
     double index_ = 1.0;
+    double offset_ = 0.0;
+    double scale_ = 0.0;
     bool fixed_ = true;  ///< no growth towards grazing: nothing is reflected, or everything
 };
 

@@ -86,15 +86,25 @@ TEST_CASE("fresnel: the same from both sides along the same path") {
     }
 }
 
-TEST_CASE("interface: keeps what it states at normal incidence and grows to 1") {
-    for (const double r : {0.01, 0.04, 0.3, 0.9, 0.999}) {
-        const Interface interface(r);
-        CHECK(interface(1.0) == doctest::Approx(r));
-        CHECK(interface(0.0) == doctest::Approx(1.0));
+TEST_CASE("interface: keeps what it states at normal incidence and grows to grazing") {
+    for (const double index : {1.0, 1.33, 1.5, 2.4, 9.0}) {
+        for (const double r : {0.01, 0.04, 0.3, 0.9, 0.999}) {
+            const Interface interface(r, index);
+            CHECK(interface(1.0) == doctest::Approx(r));
+            if (r > 0.4) CHECK(interface(0.0) == doctest::Approx(1.0));
+            for (int i = 1; i <= 90; ++i) {
+                const double before = interface(std::cos((i - 1) * kPi / 180.0));
+                const double after = interface(std::cos(i * kPi / 180.0));
+                CHECK(after >= before - 1e-12);
+                CHECK(after <= 1.0 + 1e-12);
+            }
+        }
     }
-    CHECK(Interface(0.0)(0.1) == 0.0);
-    CHECK(Interface(0.0).none());
-    CHECK(Interface(1.0)(0.7) == 1.0);
+    const Interface glass(0.04, 1.5);
+    for (const double c : {0.1, 0.5, 0.9}) CHECK(glass(c) == doctest::Approx(fresnel(c, 1.5)));
+    CHECK(Interface(0.0, 1.5)(0.1) == 0.0);
+    CHECK(Interface(0.0, 1.5).none());
+    CHECK(Interface(1.0, 1.5)(0.7) == 1.0);
 }
 
 TEST_CASE("facets: every distribution covers the surface once") {

@@ -20,7 +20,7 @@ constexpr double kLeastWeight = 0x1p-16;
 constexpr double kDark = 0x1p-12;
 
 /// Rays from secondary hits use a part of an area light's samples.
-constexpr int kSecondaryShare = 4;
+constexpr int kSecondaryShare = 2;
 
 std::uint32_t face_of(const Hit& hit) {
     std::uint64_t x =
@@ -179,8 +179,9 @@ RayShader::Spot RayShader::approach(const RayQuery& query, const Hit& hit, Path&
     spot.light = spot.body * stage_->ambient;
     if (facets > mirror) {
         const double rest = (facets - mirror) * material->opaque_part;
-        spot.light += stage_->ambient * material->reflected(facets, material->specular.value()) *
-                      (rest / facets);
+        const Vec3 image = reflected_direction(query.ray.direction, spot.normal);
+        spot.light += stage_->surroundings(image) *
+                      material->reflected(facets, material->specular.value()) * (rest / facets);
     }
     spot.lit = !material->transparent || hit.entering;
 

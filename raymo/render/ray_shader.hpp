@@ -2,12 +2,14 @@
 // parts.
 //
 // At a surface the light towards the viewer is the sum of
-//     body * ambient  +  for each lamp that is not hidden:  power n.l (body + facets)      (here,
-//     light_model.hpp) mirror image, refracted image (rays that are traced next)
+//     body * ambient + facets * surroundings
+//     power n.l (body + facets) for each lamp that is not hidden                  (light_model.hpp)
+//     the mirror image and the refracted image                           (rays that are traced next)
 // Rays to be traced next wait on a stack with the weight that they will have in the picture, so
-// there is no recursion. A ray that starts on a surface names that surface instead of starting a
-// little above it; together with exact normals this leaves neither acne nor light leaks. A lamp
-// behind a surface does not light it.
+// there is no recursion.
+// A ray that starts on a surface names that surface instead of starting a little above it; together
+// with exact normals this leaves neither acne nor light leaks. A lamp behind a surface does not
+// light it.
 #pragma once
 
 #include <array>
@@ -38,6 +40,9 @@ struct Stage {
         const double up = 0.5 + 0.5 * d.z;
         return background.bottom * (1.0 - up) + background.top * up;
     }
+    /// What facets that are not traced reflect from direction `d`: the backdrop, or other parts. Half
+    /// of it is taken from the backdrop, and half is ambient light.
+    [[nodiscard]] Colour surroundings(Vec3 d) const { return (behind(d) + ambient) * 0.5; }
 };
 
 /// A ray from the eye. Samples of one pixel share its `seed`; together they use each area light's

@@ -61,10 +61,10 @@ Vec3 centre_of(const Aabb& box) { return box.empty() || !box.bounded() ? Vec3{} 
 }  // namespace
 
 const Material& default_material() {
-    static const Material kMaterial{.color = {0.62, 0.64, 0.67},
+    static const Material kMaterial{.color = {0.66, 0.66, 0.67},
                                     .diffuse = 0.9,
-                                    .specular = 0.06,
-                                    .roughness = 0.3,
+                                    .specular = 0.05,
+                                    .roughness = 0.25,
                                     .absorption = {},
                                     .name = "default"};
     return kMaterial;
@@ -121,24 +121,24 @@ std::vector<Light> default_lights(const Aabb& box, const Camera& camera) {
 
     // A large soft key from the upper left, a wide fill beside the lens on the other side, and a
     // rim from behind.
-    const Vec3 key = towards(-0.75, 0.95, 0.75);
+    const Vec3 key = towards(-0.8, 0.8, 0.75);
     Vec3 s;
     Vec3 t;
     make_frame(key, s, t);
-    const double side = 2.4 * radius;
+    const double side = 1.8 * radius;
     const Vec3 middle = centre + key * (6.0 * radius);
     return {Light{.kind = LightKind::area,
                   .position = middle - (s + t) * (0.5 * side),
                   .direction = -key,
-                  .power = 0.95,
+                  .power = 1.2,
                   .color = {1.0, 0.97, 0.93},
                   .edge_u = s * side,
                   .edge_v = t * side,
                   .samples = 16},
             Light{.kind = LightKind::directional,
                   .position = {},
-                  .direction = -towards(0.9, 0.25, 0.9),
-                  .power = 0.28,
+                  .direction = -towards(0.9, 0.1, 1.0),
+                  .power = 0.22,
                   .color = {0.93, 0.96, 1.0},
                   .edge_u = {},
                   .edge_v = {},
@@ -146,14 +146,14 @@ std::vector<Light> default_lights(const Aabb& box, const Camera& camera) {
             Light{.kind = LightKind::directional,
                   .position = {},
                   .direction = -towards(0.55, 0.6, -0.85),
-                  .power = 0.5,
+                  .power = 0.35,
                   .color = {0.96, 0.98, 1.0},
                   .edge_u = {},
                   .edge_v = {}}};
 }
 
-Colour default_ambient() { return {0.17, 0.18, 0.195}; }
+Colour default_ambient() { return {0.12, 0.13, 0.145}; }
 
-Background default_background() { return {{0.62, 0.64, 0.67}, {0.98, 0.98, 0.99}}; }
+Background default_background() { return {{0.56, 0.58, 0.61}, {1.15, 1.15, 1.15}}; }
 
 }  // namespace raymo::scene
