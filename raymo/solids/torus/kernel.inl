@@ -21,7 +21,7 @@
 // point (the line's, and the roundings of o + s d, of q, a and b) changes G by E = 2 sqrt(w) e' +
 // e'^2 <= (w / b + b) e' + e'^2, besides 4 u (w + b^2) of G's own. Signs count only where |G| > E.
 // An end is certain to within r when G > E at r on its outer side and G < -E at r on its inner
-// side; r starts at 2 E / |G'| and grows until both hold. It does so in the end, since the extrema
+// side; r starts at 2 E / |G'|, or sqrt(E) where that is less, and grows until both hold. It does so in the end, since the extrema
 // to both sides were found to be certain. This covers contact of any order.
 template <class R>
 struct TorusLine {
@@ -90,7 +90,8 @@ template <class R, class M>
 inline R torus_certainty(const TorusLine<R>& line, R s, R outer, R inner, M active) {
     const TorusValue<R> at = torus_value(line, s);
     const R start = R(2.0) * at.error / lane_abs(at.slope) + R(4.0 * kUnitRoundoff);
-    R reach = lane_select(start < R(2.0), start, R(2.0));
+    const R contact = lane_sqrt(at.error);  // the right order where the line touches
+    R reach = lane_select(start < contact, start, contact);
     const R outward = lane_select(outer > s, R(1.0), R(-1.0));
     const R out_room = lane_abs(outer - s);
     const R in_room = lane_abs(inner - s);
@@ -100,7 +101,7 @@ inline R torus_certainty(const TorusLine<R>& line, R s, R outer, R inner, M acti
         const M certain = lane_and(out.g > out.error, in.g < R(0.0) - in.error);
         active = lane_and(active, lane_not(certain));
         if (!lane_any(active)) break;
-        reach = lane_select(active, reach * R(8.0), reach);
+        reach = lane_select(active, reach * R(4.0), reach);
     }
     return reach;
 }
