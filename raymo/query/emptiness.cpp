@@ -112,8 +112,7 @@ public:
 private:
     bool shoot(Vec3 from, Vec3 to) {
         Vec3 d = to - from;
-        if (max_norm(d) == 0.0) d = {0.321, 0.782, -0.533};
-        d = unit(d);
+        d = unit(d + Vec3{0.00321, 0.00782, -0.00533} * max_norm(d));  // in no plane of the axes
         const Aabb& all = scene_.bounds();
         const double back = 2.0 * (max_norm(all.size()) + max_norm(from - all.centre()));
         trace::RayQuery query;
@@ -125,6 +124,11 @@ private:
     const trace::CompiledScene& scene_;
     trace::Tracer tracer_;
 };
+
+/// A box without extent in some direction holds no solid: what is closed and regularised has inner points.
+bool has_room(const Aabb& box) {
+    return box.lo.x < box.hi.x && box.lo.y < box.hi.y && box.lo.z < box.hi.z;
+}
 
 bool stopped(Progress* progress) { return progress != nullptr && progress->cancelled(); }
 Failure cancelled() { return fail(ErrorCode::cancelled, "interrupted"); }
@@ -166,7 +170,6 @@ Verdict halve(Locator& locator, std::vector<Aabb>& cells, Progress* progress) {
 }
 
 Result<bool> search(Locator& locator, const trace::CompiledScene& compiled, Progress* progress) {
-    if (compiled.bounds().empty()) return true;
     Prober prober(compiled);
     if (prober.meets(compiled.bounds(), 4)) return false;
 
@@ -249,13 +252,14 @@ Result<bool> is_empty(const csg::Solid& solid, Progress* progress) {
     scene.parts.push_back({"", finite, {}});
     const Result<trace::CompiledScene> compiled = trace::compile(scene, progress);
     if (!compiled) return fail(compiled.error());
+    if (!has_room(compiled->bounds())) return true;
     Locator locator(finite);
     return search(locator, *compiled, progress);
 }
 
 Result<bool> is_empty(const scene::Scene& scene, const trace::CompiledScene& compiled,
                       Progress* progress) {
-    if (compiled.bounds().empty()) return true;
+    if (!has_room(compiled.bounds())) return true;
     if (Prober(compiled).meets(compiled.bounds(), 4)) return false;
     Locator locator(scene);
     return search(locator, compiled, progress);
