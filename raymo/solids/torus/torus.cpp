@@ -85,7 +85,7 @@ Result<Placed<Torus::Kernel>> Torus::prepare(std::span<const Argument> arguments
     const double ring = std::get<double>(arguments[0]);
     const double tube = std::get<double>(arguments[1]);
     const double size = ring + tube;
-    if (!std::isfinite(size) || !(tube / size > 0.0)) {
+    if (!std::isfinite(size) || !(tube / size > 1e-300)) {
         Failure failure =
             fail(ErrorCode::out_of_range,
                  "torus: its radii are too large or too different to be computed with",
