@@ -228,6 +228,15 @@ Boxf outward(const Aabb& box, double margin) {
     return out;
 }
 
+Boxf hull(const Boxf& a, const Boxf& b) {
+    Boxf out = a;
+    for (std::size_t i = 0; i < 3; ++i) {
+        out.lo[i] = std::min(a.lo[i], b.lo[i]);
+        out.hi[i] = std::max(a.hi[i], b.hi[i]);
+    }
+    return out;
+}
+
 Bvh build_bvh(const std::vector<Boxf>& boxes) { return Builder(boxes).build(); }
 
 }  // namespace raymo::trace

@@ -18,6 +18,7 @@ struct Boxf {
     std::array<float, 3> lo;
     std::array<float, 3> hi;
 };
+[[nodiscard]] Boxf hull(const Boxf& a, const Boxf& b);
 /// Smallest Boxf that contains `box` grown by `margin`.
 [[nodiscard]] Boxf outward(const Aabb& box, double margin);
 

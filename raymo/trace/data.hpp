@@ -45,8 +45,21 @@ struct Leaf {
     std::uint32_t frame;
     std::uint32_t parent;  ///< group
     std::uint32_t look;
-    std::uint32_t order;  ///< place in the model, left to right
+    std::uint32_t order;    ///< place in the model, left to right
+    std::uint8_t unit = 1;  ///< first leaf of a unit: how many leaves the unit has; 0: a later one
 };
+
+/// How the kernels of a type are computed for several rays at once.
+enum class LeafKind : std::uint8_t {
+    one_span,     ///< side by side; convex
+    spans,        ///< side by side; several spans
+    single_rays,  ///< one ray after the other, and instances
+};
+[[nodiscard]] LeafKind kind_of(std::uint32_t type);
+
+/// Leaves of a unit, at most. A unit is what stands in one place of the tree of boxes: a leaf, or a product (a small
+/// intersection or difference of leaves, right below the root of a part).
+inline constexpr std::uint8_t kMostInUnit = 8;
 
 /// What many leaves share.
 struct Look {
@@ -74,7 +87,8 @@ struct CompiledSolid {
     std::vector<BvhNode> nodes;
     Vec3 centre;  ///< model frame -> normalised frame: (x - centre) * scale
     double scale = 1.0;
-    Aabb bounds;  ///< of the leaves, each within its active zone, in the model frame
+    Aabb bounds;          ///< of the leaves, each within its active zone, in the model frame
+    bool simple = false;  ///< every part is a union of units that packets can compute
     std::uint32_t first_leaf = 0;  ///< leaves of all solids are numbered on from here
 };
 

@@ -1,22 +1,5 @@
 // Rays against leaves; included by walk.cpp once per instruction set, inside HWY_NAMESPACE.
 
-/// How the kernels of one type are computed for several rays at once, and how many spans each
-/// gives; 0: one by one.
-template <class K>
-inline constexpr int kSpansInLanes = 0;
-template <>
-inline constexpr int kSpansInLanes<solids::Block::Kernel> = 1;
-template <>
-inline constexpr int kSpansInLanes<solids::Sphere::Kernel> = 1;
-template <>
-inline constexpr int kSpansInLanes<solids::Cylinder::Kernel> = 1;
-template <>
-inline constexpr int kSpansInLanes<solids::Cone::Kernel> = 1;
-template <>
-inline constexpr int kSpansInLanes<solids::Torus::Kernel> = 2;
-template <>
-inline constexpr int kSpansInLanes<solids::Halfspace::Kernel> = 1;
-
 using Ray8 = LocalRay<Lanes>;
 HWY_INLINE void lane_spans(const solids::Block::Kernel&, const Ray8& ray,
                            LaneSpans<Lanes, Mask, 1>& out) {

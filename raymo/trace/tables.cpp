@@ -2,6 +2,8 @@
 
 #include <bit>
 
+#include "raymo/trace/lane_kinds.hpp"
+
 namespace raymo::trace {
 namespace {
 
@@ -17,6 +19,19 @@ std::uint64_t mix_number(std::uint64_t hash, double value) {
 }
 
 }  // namespace
+
+LeafKind kind_of(std::uint32_t type) {
+    LeafKind kind = LeafKind::single_rays;
+    std::uint32_t at = 0;
+    solids::Inventory::for_each([&]<class P>() {
+        if (at++ != type) return;
+        constexpr int kSpans = kSpansInLanes<typename P::Kernel>;
+        kind = kSpans == 0   ? LeafKind::single_rays
+               : kSpans == 1 ? LeafKind::one_span
+                             : LeafKind::spans;
+    });
+    return kind;
+}
 
 std::uint32_t Tables::kernel(const solids::AnyKernel& kernel) {
     return std::visit(

@@ -17,7 +17,8 @@ Solid primitive(std::string_view name, std::vector<solids::Argument> arguments) 
     for (std::uint32_t i = 0; i < rows.size(); ++i) {
         if (rows[i].schema->name != name) continue;
         const auto params = rows[i].schema->params;
-        while (arguments.size() < params.size()) arguments.push_back(*params[arguments.size()].fallback);
+        while (arguments.size() < params.size())
+            arguments.push_back(*params[arguments.size()].fallback);
         return csg::primitive(i, arguments).value();
     }
     return {};

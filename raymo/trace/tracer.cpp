@@ -1,6 +1,7 @@
 #include "raymo/trace/tracer.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "raymo/core/assert.hpp"
@@ -14,6 +15,8 @@ namespace {
 
 using solids::LocalRay;
 #include "raymo/trace/localise.inl"
+//
+#include "raymo/trace/surface.inl"
 
 /// A ray in the frame of the base solid: x = (o + s d), and how s gives the user's t.
 struct BaseRay {
@@ -37,13 +40,20 @@ Sum two_sum(double a, double b) {
     return {s, (a - (s - bb)) + (b - bb)};
 }
 
+/// The power of two that brings `size` (normal, > 0) to [1, 2).
+double binary_inverse(double size) {
+    const std::uint64_t exponent = std::bit_cast<std::uint64_t>(size) >> 52;
+    // 2046 - exponent is the exponent of the inverse; it would not be normal for 0 and for the largest numbers.
+    if (exponent == 0 || exponent >= 2046) return std::ldexp(1.0, -std::ilogb(size));
+    return std::bit_cast<double>((2046 - exponent) << 52);
+}
+
 /// An origin far away is moved to the point of the line nearest to the solid, in doubled precision,
 /// so that the distance costs no accuracy.
 BaseRay base_ray(const CompiledSolid& solid, const RayQuery& query) {
     BaseRay out;
     const Vec3 direction = query.ray.direction;
-    const int exponent = -std::ilogb(max_norm(direction));
-    const double unit_scale = std::ldexp(1.0, exponent);
+    const double unit_scale = binary_inverse(max_norm(direction));
     out.t_per_s = unit_scale / solid.scale;
     Vec3 low;
     for (int a = 0; a < 3; ++a) {
@@ -53,8 +63,8 @@ BaseRay base_ray(const CompiledSolid& solid, const RayQuery& query) {
         out.d[a] = direction[a] * unit_scale;
     }
     const double far = max_norm(out.o);
-    out.error = query.start_error * solid.scale + 4.0 * kUnitRoundoff * std::min(far, 4.0);
-    if (far > 2.0) {
+    out.error = query.start_error * solid.scale + 4.0 * kUnitRoundoff * std::min(far, 16.0);
+    if (far > 16.0) {
         out.shift = -dot(out.o, out.d) / dot(out.d, out.d);
         for (int a = 0; a < 3; ++a) {
             const double product = out.shift * out.d[a];
@@ -89,6 +99,7 @@ struct Tracer::State {
     Walker<1> one;
     Walker<8> eight;
     BaseRay rays[kPacket];
+    bool simple = false;  ///< the latest packet was answered by walk_simple
     RayCounts counts;
 
     template <int L>
@@ -119,6 +130,70 @@ struct Tracer::State {
         w.counters.reset();
         w.boxes = w.leaves = 0;
     }
+    /// Traces a packet in `eight`. Returns the rays that must be traced alone, one bit each.
+    std::uint32_t trace_packet(std::span<const RayQuery> queries, Mode mode) {
+        RAYMO_ASSERT(!queries.empty() && queries.size() <= kPacket);
+        const CompiledSolid& base = data->solids.front();
+        // Shadows of transparent parts need the materials on the way, which only events give.
+        simple = base.simple && (mode == Mode::first || !data->has_transparency);
+        start(eight, mode);
+        eight.active = (1U << queries.size()) - 1U;
+        Nearest& n = eight.nearest;
+        for (std::size_t i = 0; i < kPacket; ++i) {
+            if (i >= queries.size()) {
+                copy_ray(static_cast<int>(i), static_cast<int>(queries.size()) - 1);
+                continue;
+            }
+            rays[i] = base_ray(base, queries[i]);
+            place(eight, static_cast<int>(i), rays[i], queries[i]);
+            n.start[i] = eight.lanes[i].start;
+            n.limit[i] = eight.lanes[i].limit;
+            n.shift[i] = rays[i].shift;
+            n.t_per_s[i] = rays[i].t_per_s;
+        }
+        std::uint32_t deferred = 0;
+        if (simple) {
+            for (std::size_t i = 0; i < kPacket; ++i) {
+                n.lo[i] = n.t[i] = n.hi[i] = n.second_lo[i] = n.trouble_lo[i] = kInfinity;
+                n.start_hi[i] = -kInfinity;
+                n.error[i] = n.face[i] = 0.0;
+                n.leaf[i] = -1.0;
+                n.found[i] = false;
+            }
+            n.deferred = 0;
+            walk_simple(eight, mode == Mode::first);
+            deferred = n.deferred;
+        } else {
+            walk(eight);
+            for (std::size_t i = 0; i < queries.size(); ++i) {
+                deferred |= (eight.lanes[i].stepped_aside ? 1U : 0U) << i;
+            }
+        }
+        counts.boxes += eight.boxes;
+        counts.leaves += eight.leaves;
+        return deferred;
+    }
+    /// Fills an unused place of a packet with a ray that is there.
+    void copy_ray(int to, int from) {
+        Context<8>& c = eight.contexts[0];
+        for (int a = 0; a < 3; ++a) {
+            c.o[a][to] = c.o[a][from];
+            c.d[a][to] = c.d[a][from];
+            c.fo[a][to] = c.fo[a][from];
+            c.inverse[a][to] = c.inverse[a][from];
+        }
+        c.from[to] = c.from[from];
+        c.to[to] = c.to[from];
+        c.t0[to] = c.t0[from];
+        c.error[to] = c.error[from];
+        Nearest& n = eight.nearest;
+        n.start[to] = n.start[from];
+        n.limit[to] = n.limit[from];
+        n.shift[to] = n.shift[from];
+        n.t_per_s[to] = n.t_per_s[from];
+    }
+    /// The hit of ray `i` of a packet that walk_simple has answered.
+    void fill(Hit& hit, std::size_t i) const;
     /// Traces one ray in `one`; the ray as traced (perhaps moved aside) is returned.
     BaseRay trace_one(const RayQuery& query, Mode mode) {
         const BaseRay straight = base_ray(data->solids.front(), query);
@@ -138,23 +213,21 @@ struct Tracer::State {
         }
     }
     template <int L>
-    Hit hit_of(const Walker<L>& w, int i, const BaseRay& ray, const Crossing& crossing,
-               const RayQuery& query) const;
+    Hit hit_of(const Walker<L>& w, int i, const BaseRay& ray, const Crossing& crossing) const;
 };
 
 /// Fills in what only the surface that is seen needs.
 template <int L>
-Hit Tracer::State::hit_of(const Walker<L>& w, int i, const BaseRay& ray, const Crossing& crossing,
-                          const RayQuery& query) const {
+Hit Tracer::State::hit_of(const Walker<L>& w, int i, const BaseRay& ray,
+                          const Crossing& crossing) const {
     const Event& event = crossing.event;
     const Context<L>* c = &w.contexts[event.context];
     const Leaf& leaf = c->solid->leaves[event.leaf];
     const Frame& frame = data->frames[leaf.frame];
     const Local<double> local = localise<double>(frame, leaf, c->o[0][i], c->o[1][i], c->o[2][i],
                                                  c->d[0][i], c->d[1][i], c->d[2][i], c->error[i]);
-    const double s = (event.t - c->t0[i]) - local.shift;
-    const Vec3 p{local.ray.ox + s * local.ray.dx, local.ray.oy + s * local.ray.dy,
-                 local.ray.oz + s * local.ray.dz};
+    const Triple<double> place = place_in_leaf(local, event.t - c->t0[i]);
+    const Vec3 p{place.x, place.y, place.z};
     Vec3 normal;
     const auto ask = [&]<std::size_t I>(std::integral_constant<std::size_t, I>) {
         if (frame.type == I) normal = std::get<I>(data->kernels)[frame.index].normal(p, event.face);
@@ -163,28 +236,24 @@ Hit Tracer::State::hit_of(const Walker<L>& w, int i, const BaseRay& ray, const C
         (ask(std::integral_constant<std::size_t, I>{}), ...);
     }
     (std::make_index_sequence<solids::Inventory::kSize>{});
-    normal = unit(transposed_times(frame.to_local, normal));
-    bool cuts = data->looks[leaf.look].cuts != c->cuts;
+    Triple<double> n = normal_outside(frame, Triple<double>{normal.x, normal.y, normal.z});
+    const bool cuts = data->looks[leaf.look].cuts != c->cuts;
     for (; c->parent != kNone; c = &w.contexts[c->parent]) {
         const Leaf& instance = w.contexts[c->parent].solid->leaves[c->leaf];
-        normal = unit(transposed_times(data->frames[instance.frame].to_local, normal));
+        n = normal_outside(data->frames[instance.frame], n);
     }
-    if (cuts) normal = -normal;
-
+    const double sign = cuts ? -1.0 : 1.0;
+    n = {sign * n.x, sign * n.y, sign * n.z};
+    const Surface<double> surface =
+        surface_at(data->solids.front(), Triple<double>{ray.o.x, ray.o.y, ray.o.z},
+                   Triple<double>{ray.d.x, ray.d.y, ray.d.z}, n, event.t, event.error, ray.shift,
+                   ray.t_per_s, ray.step);
     Hit hit;
-    const CompiledSolid& base = data->solids.front();
-    const Vec3 place = ray.o + ray.d * event.t;
-    const double facing = std::fabs(dot(normal, ray.d));
-    const double aside = ray.step > 0.0 ? std::min(ray.step / std::max(facing, 1e-300), 2.0) : 0.0;
-    hit.t = ray.to_t(event.t);
-    hit.error = (event.error + aside + 2.0 * kUnitRoundoff * std::fabs(ray.shift)) * ray.t_per_s +
-                2.0 * kUnitRoundoff * std::fabs(hit.t);
-    hit.point = base.centre + place / base.scale;
-    hit.point_error =
-        (event.error * facing + 4.0 * kUnitRoundoff * (max_norm(ray.o) + std::fabs(event.t))) /
-            base.scale +
-        2.0 * kUnitRoundoff * (max_norm(hit.point) + max_norm(base.centre));
-    hit.normal = normal;
+    hit.t = surface.t;
+    hit.error = surface.error;
+    hit.point = {surface.x, surface.y, surface.z};
+    hit.point_error = surface.point_error;
+    hit.normal = {n.x, n.y, n.z};
     hit.entering = crossing.entering;
     hit.part = crossing.part;
     hit.material = crossing.material;
@@ -192,8 +261,39 @@ Hit Tracer::State::hit_of(const Walker<L>& w, int i, const BaseRay& ray, const C
     hit.medium_after = crossing.after;
     const Context<L>& at = w.contexts[event.context];
     hit.surface = {at.solid->first_leaf + event.leaf, at.path, event.face};
-    static_cast<void>(query);
     return hit;
+}
+
+void Tracer::State::fill(Hit& hit, std::size_t i) const {
+    const Nearest& n = eight.nearest;
+    const CompiledSolid& base = data->solids.front();
+    const auto index = static_cast<std::uint32_t>(n.leaf[i]);
+    const Leaf& leaf = base.leaves[index];
+    const Look& look = data->looks[leaf.look];
+    hit.normal = {n.surface[0][i], n.surface[1][i], n.surface[2][i]};
+    hit.t = n.surface[3][i];
+    hit.error = n.surface[4][i];
+    hit.point = {n.surface[5][i], n.surface[6][i], n.surface[7][i]};
+    hit.point_error = n.surface[8][i];
+    hit.entering = true;
+    hit.part = leaf.parent < base.parts ? leaf.parent : base.groups[leaf.parent].parent;
+    hit.material = look.material;
+    if (look.borrows) {
+        // The ray is in all positive leaves of the product here: the leftmost that has a material lends it.
+        std::uint32_t first = index;
+        while (base.leaves[first].unit == 0) --first;
+        std::uint32_t order = kNone;
+        for (std::uint32_t k = first; k < first + base.leaves[first].unit; ++k) {
+            const Look& other = data->looks[base.leaves[k].look];
+            if (other.cuts || other.material == csg::kNoMaterial || base.leaves[k].order >= order)
+                continue;
+            order = base.leaves[k].order;
+            hit.material = other.material;
+        }
+    }
+    hit.medium_before = Hit::kAir;
+    hit.medium_after = hit.material;
+    hit.surface = {base.first_leaf + index, 0, static_cast<std::uint16_t>(n.face[i])};
 }
 
 Tracer::Tracer(const CompiledScene& scene) : state_(std::make_unique<State>()) {
@@ -209,7 +309,7 @@ bool Tracer::first_hit(const RayQuery& query, Hit& hit) {
     const BaseRay ray = s.trace_one(query, Mode::first);
     const Lane& lane = s.one.lanes[0];
     if (lane.crossings.empty()) return false;
-    hit = s.hit_of(s.one, 0, ray, lane.crossings.front(), query);
+    hit = s.hit_of(s.one, 0, ray, lane.crossings.front());
     return true;
 }
 
@@ -222,55 +322,37 @@ bool Tracer::occluded(const RayQuery& query) {
 
 void Tracer::first_hits(std::span<const RayQuery> queries, Hit* hits, bool* found) {
     State& s = *state_;
-    RAYMO_ASSERT(queries.size() <= kPacket);
     s.counts.primary += queries.size();
-    s.start(s.eight, Mode::first);
-    s.eight.active = (1U << queries.size()) - 1U;
-    for (std::size_t i = 0; i < kPacket; ++i) {
-        const RayQuery& query = queries[std::min(i, queries.size() - 1)];
-        s.rays[i] = base_ray(s.data->solids.front(), query);
-        s.place(s.eight, static_cast<int>(i), s.rays[i], query);
-    }
-    walk(s.eight);
-    s.counts.boxes += s.eight.boxes;
-    s.counts.leaves += s.eight.leaves;
+    const std::uint32_t deferred = s.trace_packet(queries, Mode::first);
     for (std::size_t i = 0; i < queries.size(); ++i) {
-        const Lane& lane = s.eight.lanes[i];
-        if (lane.stepped_aside) {
+        if ((deferred >> i & 1U) != 0) {
             const BaseRay ray = s.trace_one(queries[i], Mode::first);
-            const Lane& again = s.one.lanes[0];
-            found[i] = !again.crossings.empty();
-            if (found[i]) hits[i] = s.hit_of(s.one, 0, ray, again.crossings.front(), queries[i]);
-            continue;
-        }
-        found[i] = !lane.crossings.empty();
-        if (found[i]) {
-            hits[i] = s.hit_of(s.eight, static_cast<int>(i), s.rays[i], lane.crossings.front(),
-                               queries[i]);
+            const Lane& lane = s.one.lanes[0];
+            found[i] = !lane.crossings.empty();
+            if (found[i]) hits[i] = s.hit_of(s.one, 0, ray, lane.crossings.front());
+        } else if (s.simple) {
+            found[i] = s.eight.nearest.found[i];
+            if (found[i]) s.fill(hits[i], i);
+        } else {
+            const Lane& lane = s.eight.lanes[i];
+            found[i] = !lane.crossings.empty();
+            if (found[i])
+                hits[i] = s.hit_of(s.eight, static_cast<int>(i), s.rays[i], lane.crossings.front());
         }
     }
 }
 
 void Tracer::occluded(std::span<const RayQuery> queries, bool* blocked) {
     State& s = *state_;
-    RAYMO_ASSERT(queries.size() <= kPacket);
     s.counts.shadow += queries.size();
-    s.start(s.eight, Mode::any);
-    s.eight.active = (1U << queries.size()) - 1U;
-    for (std::size_t i = 0; i < kPacket; ++i) {
-        const RayQuery& query = queries[std::min(i, queries.size() - 1)];
-        s.rays[i] = base_ray(s.data->solids.front(), query);
-        s.place(s.eight, static_cast<int>(i), s.rays[i], query);
-    }
-    walk(s.eight);
-    s.counts.boxes += s.eight.boxes;
-    s.counts.leaves += s.eight.leaves;
+    const std::uint32_t deferred = s.trace_packet(queries, Mode::any);
     for (std::size_t i = 0; i < queries.size(); ++i) {
-        const Lane& lane = s.eight.lanes[i];
-        blocked[i] = lane.blocked;
-        if (lane.stepped_aside) {
+        if ((deferred >> i & 1U) != 0) {
             s.trace_one(queries[i], Mode::any);
             blocked[i] = s.one.lanes[0].blocked;
+        } else {
+            blocked[i] =
+                s.data->solids.front().simple ? s.eight.nearest.found[i] : s.eight.lanes[i].blocked;
         }
     }
 }
@@ -285,7 +367,7 @@ void Tracer::spans(const Ray& ray, std::vector<std::vector<PartSpan>>& by_part) 
     for (auto& list : by_part) list.clear();
     for (const Crossing& crossing : s.one.lanes[0].crossings) {
         std::vector<PartSpan>& list = by_part[crossing.part];
-        const Hit hit = s.hit_of(s.one, 0, base, crossing, query);
+        const Hit hit = s.hit_of(s.one, 0, base, crossing);
         if (crossing.entering) {
             list.emplace_back();
             list.back().enter = hit;

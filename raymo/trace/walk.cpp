@@ -23,6 +23,7 @@
 
 #include "raymo/math/lanes.hpp"
 #include "raymo/math/tolerance.hpp"
+#include "raymo/trace/lane_kinds.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace raymo::trace {
@@ -35,6 +36,9 @@ using solids::LocalRay;
 //
 #include "raymo/trace/boxes-inl.hpp"
 #include "raymo/trace/leaves-inl.hpp"
+#include "raymo/trace/surface.inl"
+//
+#include "raymo/trace/nearest-inl.hpp"
 
 /// Opens what lies nearest until every ray has its answer.
 template <int L>
@@ -70,6 +74,11 @@ HWY_INLINE void walk_all(Walker<L>& w) {
 
 void walk1(Walker<1>& w) { walk_all(w); }
 void walk8(Walker<8>& w) { walk_all(w); }
+void walk_simple8(Walker<8>& w, bool surfaces) {
+    walk_nearest(w);
+    settle_nearest(w);
+    if (surfaces) finish_nearest(w);
+}
 
 }  // namespace HWY_NAMESPACE
 }  // namespace raymo::trace
@@ -80,9 +89,13 @@ namespace raymo::trace {
 
 HWY_EXPORT(walk1);
 HWY_EXPORT(walk8);
+HWY_EXPORT(walk_simple8);
 
 void walk(Walker<1>& walker) { HWY_DYNAMIC_DISPATCH(walk1)(walker); }
 void walk(Walker<8>& walker) { HWY_DYNAMIC_DISPATCH(walk8)(walker); }
+void walk_simple(Walker<8>& walker, bool surfaces) {
+    HWY_DYNAMIC_DISPATCH(walk_simple8)(walker, surfaces);
+}
 
 }  // namespace raymo::trace
 #endif

@@ -10,5 +10,8 @@ namespace raymo::trace {
 /// answers.
 void walk(Walker<1>& walker);
 void walk(Walker<8>& walker);
+/// The nearest surfaces of a simple solid, seen from outside: answers, or defers rays, in walker.nearest. `surfaces`: also
+/// fill in Nearest::surface.
+void walk_simple(Walker<8>& walker, bool surfaces);
 
 }  // namespace raymo::trace

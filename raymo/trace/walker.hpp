@@ -197,6 +197,16 @@ struct Unopened {
     std::uint8_t lanes;  ///< bit i: ray i meets the box
 };
 
+/// The nearest surface of each ray of a packet, as nearest-inl.hpp finds it; what the names mean is told there.
+struct alignas(64) Nearest {
+    double lo[8], t[8], hi[8], error[8], face[8], leaf[8];
+    double second_lo[8], start_hi[8], trouble_lo[8];
+    double start[8], limit[8], shift[8], t_per_s[8];
+    double surface[9][8];  ///< normal (3), t, error, point (3), point_error
+    bool found[8];
+    std::uint32_t deferred;
+};
+
 template <int L>
 struct Walker {
     const CompiledScene::Data* data = nullptr;
@@ -208,6 +218,7 @@ struct Walker {
     Counters<L> counters;
     std::vector<Unopened> unopened;  ///< sorted, nearest last
     std::uint64_t boxes = 0, leaves = 0;
+    Nearest nearest;  ///< packets only
 
     /// Applies all clusters of a ray that end before `horizon`, until it is done.
     void advance(int lane, double horizon);

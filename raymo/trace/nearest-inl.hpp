@@ -1,0 +1,357 @@
+// The nearest surface of a simple solid for a packet of rays; included by walk.cpp once per instruction set, inside
+// HWY_NAMESPACE.
+//
+// A solid is simple when every part is a union of units: leaves, and products of leaves (a & b - c - d). Seen from outside
+// of all of them, the first change of any part is the nearest place where some unit is entered, which takes a minimum
+// over units instead of events and counters. The answer is taken only where it is certain to be what the events would
+// give (walker.hpp): nothing else may overlap it, the ray may not start inside a unit, and no comparison may have been
+// undecided. Other rays are left over (`Nearest::deferred`) and traced one by one.
+
+/// The ends of one span of a leaf as events of the base ray. `lo` and `hi` are their earliest and latest places.
+struct EndInLanes {
+    Lanes t, error, lo, hi, face;
+};
+struct SpanInLanes {
+    Mask valid;
+    EndInLanes enter, exit;
+};
+
+HWY_INLINE EndInLanes end_at(Lanes shift, Lanes s, Lanes error, Lanes face) {
+    EndInLanes out;
+    out.t = shift + s;
+    const Lanes rounding = Lanes(2.0 * kUnitRoundoff) * (lane_abs(shift) + lane_abs(s));
+    out.error = lane_select(lane_abs(s) < Lanes(kInfinity), error + rounding, Lanes(0.0));
+    out.lo = out.t - out.error;
+    out.hi = out.t + out.error;
+    out.face = face;
+    return out;
+}
+
+HWY_INLINE Mask mask_of(std::uint32_t lanes) {
+    const std::uint8_t bytes[8] = {static_cast<std::uint8_t>(lanes)};
+    return {hn::LoadMaskBits(D(), bytes)};
+}
+
+/// Spans of a leaf for the rays from `first` on; returns how many at most. `trouble`: the ray runs in the boundary.
+HWY_INLINE int spans_of(Walker<8>& w, std::uint32_t index, int first, SpanInLanes* spans,
+                        Mask& trouble, Lanes& trouble_lo) {
+    const Context<8>& c = w.contexts[0];
+    const Leaf& leaf = c.solid->leaves[index];
+    const Frame& frame = w.data->frames[leaf.frame];
+    const Local<Lanes> local = localise<Lanes>(
+        frame, leaf, load(c.o[0] + first), load(c.o[1] + first), load(c.o[2] + first),
+        load(c.d[0] + first), load(c.d[1] + first), load(c.d[2] + first), load(c.error + first));
+    int count = 0;
+    visit_kernel(w, frame, [&]<class K>(const K& kernel) {
+        constexpr int kSpans = kSpansInLanes<K>;
+        if constexpr (kSpans > 0) {
+            LaneSpans<Lanes, Mask, kSpans> found;
+            lane_spans(kernel, local.ray, found);
+            for (int k = 0; k < kSpans; ++k) {
+                spans[k].valid = found.valid[k];
+                spans[k].enter =
+                    end_at(local.shift, found.enter[k], found.enter_error[k], found.enter_face[k]);
+                spans[k].exit =
+                    end_at(local.shift, found.exit[k], found.exit_error[k], found.exit_face[k]);
+            }
+            trouble = found.degenerate;
+            count = kSpans;
+        }
+    });
+    trouble_lo = Lanes(kInfinity);
+    if (lane_any(trouble)) trouble_lo = local.shift - Lanes(2.0) / lane_sqrt(local.ray.dd);
+    return count;
+}
+
+/// The running minimum of a packet's half, in registers.
+struct NearestInLanes {
+    Lanes lo, t, error, face, leaf, second_lo, start_hi, trouble_lo;
+    Lanes start, limit;
+
+    HWY_INLINE void offer(Mask there, const EndInLanes& end, Lanes by) {
+        const Mask closer = lane_and(there, end.lo < lo);
+        const Lanes loser = lane_select(closer, lo, end.lo);
+        second_lo = lane_select(there, lane_min(second_lo, loser), second_lo);
+        lo = lane_select(closer, end.lo, lo);
+        t = lane_select(closer, end.t, t);
+        error = lane_select(closer, end.error, error);
+        face = lane_select(closer, end.face, face);
+        leaf = lane_select(closer, by, leaf);
+    }
+    /// Events up to the start, or about it, have been passed; nothing else may lie within their uncertainty.
+    HWY_INLINE void pass(Mask there, Lanes hi) {
+        start_hi = lane_select(there, lane_max(start_hi, hi), start_hi);
+    }
+    HWY_INLINE void doubt(Mask there, Lanes from) {
+        trouble_lo = lane_select(there, lane_min(trouble_lo, from), trouble_lo);
+    }
+};
+
+HWY_INLINE NearestInLanes load(const Nearest& n, int first) {
+    NearestInLanes out;
+    out.lo = load(n.lo + first);
+    out.t = load(n.t + first);
+    out.error = load(n.error + first);
+    out.face = load(n.face + first);
+    out.leaf = load(n.leaf + first);
+    out.second_lo = load(n.second_lo + first);
+    out.start_hi = load(n.start_hi + first);
+    out.trouble_lo = load(n.trouble_lo + first);
+    out.start = load(n.start + first);
+    out.limit = load(n.limit + first);
+    return out;
+}
+HWY_INLINE void store(const NearestInLanes& l, Nearest& n, int first) {
+    store(l.lo, n.lo + first);
+    store(l.t, n.t + first);
+    store(l.error, n.error + first);
+    store(l.face, n.face + first);
+    store(l.leaf, n.leaf + first);
+    store(l.second_lo, n.second_lo + first);
+    store(l.start_hi, n.start_hi + first);
+    store(l.trouble_lo, n.trouble_lo + first);
+    store(l.t + l.error, n.hi + first);
+}
+
+/// A leaf by itself. Returns the rays that start inside it.
+HWY_INLINE std::uint32_t meet_leaf(Walker<8>& w, std::uint32_t index, int first,
+                                   std::uint32_t lanes, NearestInLanes& nearest) {
+    SpanInLanes spans[2];
+    Mask trouble;
+    Lanes trouble_lo;
+    const int count = spans_of(w, index, first, spans, trouble, trouble_lo);
+    const Mask here = mask_of(lanes);
+    nearest.doubt(lane_and(here, trouble), trouble_lo);
+    std::uint32_t inside = 0;
+    for (int k = 0; k < count; ++k) {
+        const SpanInLanes& span = spans[k];
+        const Mask there = lane_and(here, span.valid);
+        if (!lane_any(there)) continue;
+        const Mask ahead = span.enter.lo > nearest.start;
+        nearest.offer(lane_and(there, lane_and(ahead, span.enter.lo <= nearest.limit)), span.enter,
+                      Lanes(static_cast<double>(index)));
+        const Mask about =
+            lane_and(there, lane_and(lane_not(ahead), span.exit.hi >= nearest.start));
+        if (!lane_any(about)) continue;
+        const Mask left = span.exit.lo <= nearest.start;
+        nearest.pass(about, span.enter.hi);
+        nearest.pass(lane_and(about, left), span.exit.hi);
+        inside |= bits(lane_and(about, lane_not(left)));
+    }
+    return inside;
+}
+
+/// A product: inside all of its positive leaves and none of the others. Returns the rays that start inside it.
+HWY_INLINE std::uint32_t meet_product(Walker<8>& w, std::uint32_t index, int size, int first,
+                                      std::uint32_t lanes, NearestInLanes& nearest) {
+    const CompiledSolid& solid = *w.contexts[0].solid;
+    const Lanes start = nearest.start;
+    Mask alive = mask_of(lanes);
+    Mask doubtful = lane_and(alive, lane_not(alive));
+    // Where all positive leaves are entered, and where the first of them is left.
+    EndInLanes enter;
+    enter.t = enter.lo = enter.hi = Lanes(-kInfinity);
+    enter.error = enter.face = Lanes(0.0);
+    Lanes enter_leaf(0.0);
+    Lanes exit_lo(kInfinity);
+    Lanes exit_hi(kInfinity);
+    SpanInLanes taken[kMostInUnit];
+    Lanes taken_leaf[kMostInUnit];
+    int taken_count = 0;
+    for (int i = 0; i < size; ++i) {
+        const std::uint32_t leaf = index + static_cast<std::uint32_t>(i);
+        SpanInLanes spans[2];
+        Mask trouble;
+        Lanes trouble_lo;
+        static_cast<void>(spans_of(w, leaf, first, spans, trouble, trouble_lo));
+        nearest.doubt(lane_and(mask_of(lanes), trouble), trouble_lo);
+        const SpanInLanes& span = spans[0];
+        const Lanes number(static_cast<double>(leaf));
+        if (!w.data->looks[solid.leaves[leaf].look].literal_negated) {
+            taken[taken_count] = span;
+            taken_leaf[taken_count++] = number;
+            continue;
+        }
+        alive = lane_and(alive, span.valid);
+        if (!lane_any(alive)) return 0;
+        const Mask later = span.enter.lo > enter.hi;
+        const Mask earlier = span.enter.hi < enter.lo;
+        const Mask matters = lane_max(span.enter.hi, enter.hi) > start;
+        doubtful = lane_or(doubtful, lane_and(matters, lane_not(lane_or(later, earlier))));
+        enter.t = lane_select(later, span.enter.t, enter.t);
+        enter.error = lane_select(later, span.enter.error, enter.error);
+        enter.face = lane_select(later, span.enter.face, enter.face);
+        enter_leaf = lane_select(later, number, enter_leaf);
+        enter.lo = lane_max(span.enter.lo, enter.lo);
+        enter.hi = lane_max(span.enter.hi, enter.hi);
+        exit_lo = lane_min(span.exit.lo, exit_lo);
+        exit_hi = lane_min(span.exit.hi, exit_hi);
+    }
+    alive = lane_and(alive, lane_and(exit_hi >= start,
+                                     lane_and(enter.lo <= nearest.limit, enter.lo <= exit_hi)));
+    const Mask over = lane_and(alive, exit_lo <= start);
+    nearest.pass(over, exit_hi);
+    alive = lane_and(alive, lane_not(over));
+    if (!lane_any(alive)) return 0;
+    doubtful = lane_or(doubtful, enter.hi >= exit_lo);
+    const Mask begun = enter.lo <= start;
+    nearest.pass(lane_and(alive, begun), enter.hi);
+
+    // From there on, as long as the place lies in a leaf that is taken away, go on to where that is left.
+    EndInLanes at = enter;
+    at.lo = lane_select(begun, start, enter.lo);
+    at.hi = lane_select(begun, start, enter.hi);
+    Lanes at_leaf = enter_leaf;
+    Mask from_start = begun;
+    for (int pass = 0; pass < taken_count; ++pass) {
+        bool moved = false;
+        for (int j = 0; j < taken_count; ++j) {
+            const SpanInLanes& span = taken[j];
+            const Mask entered = lane_and(alive, lane_and(span.valid, span.enter.lo <= at.hi));
+            const Mask left_at_start = lane_and(from_start, span.exit.lo <= start);
+            const Mask left = lane_or(left_at_start, span.exit.hi < at.lo);
+            nearest.pass(lane_and(entered, lane_and(from_start, span.exit.hi >= start)),
+                         span.enter.hi);
+            nearest.pass(lane_and(entered, left_at_start), span.exit.hi);
+            const Mask within = lane_and(entered, lane_not(left));
+            const Mask goes_on = lane_and(within, span.exit.lo > at.hi);
+            doubtful = lane_or(doubtful, lane_and(within, lane_not(span.exit.lo > at.hi)));
+            if (!lane_any(goes_on)) continue;
+            moved = true;
+            at.t = lane_select(goes_on, span.exit.t, at.t);
+            at.error = lane_select(goes_on, span.exit.error, at.error);
+            at.face = lane_select(goes_on, span.exit.face, at.face);
+            at.lo = lane_select(goes_on, span.exit.lo, at.lo);
+            at.hi = lane_select(goes_on, span.exit.hi, at.hi);
+            at_leaf = lane_select(goes_on, taken_leaf[j], at_leaf);
+            from_start = lane_and(from_start, lane_not(goes_on));
+        }
+        if (!moved) break;
+    }
+    alive = lane_and(alive, at.lo <= exit_hi);
+    doubtful = lane_or(doubtful, at.hi >= exit_lo);
+    nearest.doubt(lane_and(alive, doubtful), lane_max(enter.lo, start));
+    alive = lane_and(alive, lane_not(doubtful));
+    nearest.offer(lane_and(alive, lane_and(lane_not(from_start), at.lo <= nearest.limit)), at,
+                  at_leaf);
+    return bits(lane_and(alive, from_start));
+}
+
+/// Walks the tree for all active rays; the answers are in w.nearest.
+HWY_INLINE void walk_nearest(Walker<8>& w) {
+    Nearest& n = w.nearest;
+    Context<8>& c = w.contexts[0];
+    w.unopened.clear();
+    w.push({-kInfinity, 0, 0, 0, static_cast<std::uint8_t>(w.active)});
+    while (!w.unopened.empty()) {
+        const Unopened box = w.unopened.back();
+        w.unopened.pop_back();
+        std::uint32_t open = 0;  // rays that may still find something nearer
+        for (int i = 0; i < 8; i += kLanes) open |= bits(load(n.hi + i) >= Lanes(box.t)) << i;
+        open &= w.active & ~n.deferred;
+        if (open == 0) return;
+        const std::uint32_t lanes = box.lanes & open;
+        if (lanes == 0) continue;
+        if (box.count == 0) {
+            open_node(w, box, lanes);
+            continue;
+        }
+        for (int first = 0; first < 8; first += kLanes) {
+            const std::uint32_t here = (lanes >> first) & ((1U << kLanes) - 1U);
+            if (here == 0) continue;
+            NearestInLanes nearest = load(n, first);
+            for (std::uint32_t k = 0; k < box.count;) {
+                const std::uint32_t leaf = box.ref + k;
+                const int size = c.solid->leaves[leaf].unit;
+                const std::uint32_t inside =
+                    size == 1 ? meet_leaf(w, leaf, first, here, nearest)
+                              : meet_product(w, leaf, size, first, here, nearest);
+                n.deferred |= inside << first;
+                k += static_cast<std::uint32_t>(size);
+            }
+            store(nearest, n, first);
+        }
+        w.leaves += box.count * static_cast<std::uint64_t>(__builtin_popcount(lanes));
+        for (int i = 0; i < 8; ++i) {
+            const double hi = n.hi[i] < n.limit[i] ? n.hi[i] : n.limit[i];
+            c.to[i] = static_cast<float>(hi + 0x1p-20 * (hi < 0.0 ? -hi : hi));
+        }
+    }
+}
+
+/// Decides for which rays the answer is certain.
+HWY_INLINE void settle_nearest(Walker<8>& w) {
+    Nearest& n = w.nearest;
+    for (int i = 0; i < 8; ++i) {
+        if ((w.active >> i & 1U) == 0) continue;
+        const bool found = n.lo[i] < kInfinity;
+        const bool certain =
+            found ? n.second_lo[i] > n.hi[i] && n.trouble_lo[i] > n.hi[i] && n.start_hi[i] < n.lo[i]
+                  : n.trouble_lo[i] == kInfinity;
+        if (!certain) n.deferred |= 1U << i;
+        n.found[i] = found && certain && n.t[i] < n.limit[i];
+    }
+}
+
+/// Fills in what is told of the surfaces that were found.
+HWY_INLINE void finish_nearest(Walker<8>& w) {
+    Nearest& n = w.nearest;
+    Context<8>& c = w.contexts[0];
+    const CompiledSolid& base = *c.solid;
+    std::uint32_t rest = 0;
+    for (int i = 0; i < 8; ++i) rest |= (n.found[i] && (n.deferred >> i & 1U) == 0 ? 1U : 0U) << i;
+    while (rest != 0) {
+        const double number = n.leaf[__builtin_ctz(rest)];
+        std::uint32_t same = 0;
+        for (int i = 0; i < 8; ++i) same |= (n.leaf[i] == number ? 1U : 0U) << i;
+        same &= rest;
+        rest &= ~same;
+        const Leaf& leaf = base.leaves[static_cast<std::uint32_t>(number)];
+        const Frame& frame = w.data->frames[leaf.frame];
+        const double sign = w.data->looks[leaf.look].cuts ? -1.0 : 1.0;
+        for (int first = 0; first < 8; first += kLanes) {
+            const std::uint32_t here = (same >> first) & ((1U << kLanes) - 1U);
+            if (here == 0) continue;
+            const Triple<Lanes> o{load(c.o[0] + first), load(c.o[1] + first), load(c.o[2] + first)};
+            const Triple<Lanes> d{load(c.d[0] + first), load(c.d[1] + first), load(c.d[2] + first)};
+            const Lanes t = load(n.t + first);
+            const Local<Lanes> local =
+                localise<Lanes>(frame, leaf, o.x, o.y, o.z, d.x, d.y, d.z, load(c.error + first));
+            const Triple<Lanes> p = place_in_leaf(local, t);
+            alignas(64) double x[8], y[8], z[8];
+            store(p.x, x);
+            store(p.y, y);
+            store(p.z, z);
+            visit_kernel(w, frame, [&](const auto& kernel) {
+                for (std::uint32_t r = here; r != 0; r &= r - 1) {
+                    const int i = __builtin_ctz(r);
+                    const Vec3 g = kernel.normal({x[i], y[i], z[i]},
+                                                 static_cast<std::uint16_t>(n.face[first + i]));
+                    x[i] = g.x;
+                    y[i] = g.y;
+                    z[i] = g.z;
+                }
+            });
+            Triple<Lanes> normal = normal_outside(frame, Triple<Lanes>{load(x), load(y), load(z)});
+            const Lanes s(sign);
+            normal = {s * normal.x, s * normal.y, s * normal.z};
+            const Surface<Lanes> surface =
+                surface_at(base, o, d, normal, t, load(n.error + first), load(n.shift + first),
+                           load(n.t_per_s + first), Lanes(0.0));
+            alignas(64) double values[9][8];
+            store(normal.x, values[0]);
+            store(normal.y, values[1]);
+            store(normal.z, values[2]);
+            store(surface.t, values[3]);
+            store(surface.error, values[4]);
+            store(surface.x, values[5]);
+            store(surface.y, values[6]);
+            store(surface.z, values[7]);
+            store(surface.point_error, values[8]);
+            for (std::uint32_t r = here; r != 0; r &= r - 1) {
+                const int i = __builtin_ctz(r);
+                for (int v = 0; v < 9; ++v) n.surface[v][first + i] = values[v][i];
+            }
+        }
+    }
+}

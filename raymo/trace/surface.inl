@@ -1,0 +1,63 @@
+// What is told of the surface that a ray meets, for one ray or several (see math/lanes.hpp). Included once per
+// instruction set, after localise.inl.
+
+template <class R>
+struct Triple {
+    R x, y, z;
+};
+
+/// a / |a|, scaled first so that it neither overflows nor underflows.
+template <class R>
+inline Triple<R> unit_of(Triple<R> a) {
+    const R size = lane_max(lane_abs(a.x), lane_max(lane_abs(a.y), lane_abs(a.z)));
+    const Triple<R> b{a.x / size, a.y / size, a.z / size};
+    const R length = lane_sqrt(b.x * b.x + b.y * b.y + b.z * b.z);
+    return {b.x / length, b.y / length, b.z / length};
+}
+
+/// A normal in the frame of a leaf, seen from the frame outside: the transposed map, made unit.
+template <class R>
+inline Triple<R> normal_outside(const Frame& frame, Triple<R> n) {
+    const Mat3& m = frame.to_local;
+    const auto column = [&](int j) {
+        return R(m.row[0][j]) * n.x + R(m.row[1][j]) * n.y + R(m.row[2][j]) * n.z;
+    };
+    return unit_of(Triple<R>{column(0), column(1), column(2)});
+}
+
+/// The place in the leaf's frame where the ray is at parameter t of its context.
+template <class R>
+inline Triple<R> place_in_leaf(const Local<R>& local, R t) {
+    const R s = t - local.shift;
+    return {local.ray.ox + s * local.ray.dx, local.ray.oy + s * local.ray.dy, local.ray.oz + s * local.ray.dz};
+}
+
+/// From the base frame back to the model's.
+template <class R>
+struct Surface {
+    R t, error, x, y, z, point_error;
+};
+template <class R>
+inline Surface<R> surface_at(const CompiledSolid& base, Triple<R> o, Triple<R> d, Triple<R> normal, R s, R error,
+                             R shift, R t_per_s, R step) {
+    const R unit_roundoff = R(kUnitRoundoff);
+    const R two = R(2.0);
+    const auto size = [](Triple<R> v) {
+        return lane_max(lane_abs(v.x), lane_max(lane_abs(v.y), lane_abs(v.z)));
+    };
+    const R inverse = R(1.0 / base.scale);  // a power of two
+    const R facing = lane_abs(normal.x * d.x + normal.y * d.y + normal.z * d.z);
+    // A ray that was moved aside by `step` meets the surface that much to the side.
+    const R aside = lane_select(step > R(0.0), lane_min(step / lane_max(facing, R(1e-300)), two), R(0.0));
+    Surface<R> out;
+    out.t = (s + shift) * t_per_s;
+    out.error = (error + aside + two * unit_roundoff * lane_abs(shift)) * t_per_s +
+                two * unit_roundoff * lane_abs(out.t);
+    out.x = R(base.centre.x) + (o.x + d.x * s) * inverse;
+    out.y = R(base.centre.y) + (o.y + d.y * s) * inverse;
+    out.z = R(base.centre.z) + (o.z + d.z * s) * inverse;
+    const Triple<R> point{out.x, out.y, out.z};
+    out.point_error = (error * facing + R(4.0) * unit_roundoff * (size(o) + lane_abs(s))) * inverse +
+                      two * unit_roundoff * (size(point) + R(max_norm(base.centre)));
+    return out;
+}
