@@ -38,7 +38,8 @@ struct Diagnostic {
 
 /// The message with file, line, column, the line of text with a caret, label, hint and calls, as in the manual's
 /// chapter on errors. Columns count code points from 1. `color` adds ANSI colours.
-[[nodiscard]] std::string format(const Diagnostic& diagnostic, const SourceMap& sources, bool color = false);
+[[nodiscard]] std::string format(const Diagnostic& diagnostic, const SourceMap& sources,
+                                 bool color = false);
 
 /// One crossing of a solid along a ray, for the builtin `hits`.
 struct HitInterval {
@@ -55,8 +56,8 @@ struct Answers {
 
 struct Limits {
     int call_depth = 1000;
-    double solids = 1e7;       ///< solids made by the program
-    double seconds = 60.0;     ///< of evaluation
+    double solids = 1e7;                ///< solids made by the program
+    double seconds = 60.0;              ///< of evaluation
     double bytes = 4.0 * (1ULL << 30);  ///< of values and solids
 };
 
@@ -64,7 +65,9 @@ struct Limits {
 struct Host {
     /// Text of the file that `path` names in the file `from`; path as resolved in `resolved` (used to recognise a file
     /// that is imported twice). Null: imports are an error.
-    std::function<Result<std::string>(const std::string& from, const std::string& path, std::string& resolved)> load;
+    std::function<Result<std::string>(const std::string& from, const std::string& path,
+                                      std::string& resolved)>
+        load;
     Answers answers;
     std::function<void(std::string_view line)> print;  ///< null: dropped
     /// Seconds of CPU so far; null: no time limit.
@@ -86,7 +89,7 @@ struct Outcome {
     SourceMap sources;
     std::vector<Diagnostic> diagnostics;  ///< errors and warnings in order of appearance
     std::vector<Parameter> parameters;
-    scene::Scene scene;                   ///< whole only when ok
+    scene::Scene scene;  ///< whole only when ok
     bool ok = false;
 };
 

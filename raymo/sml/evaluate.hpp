@@ -1,0 +1,187 @@
+// Runs a resolved program.
+//
+// A walk over the table of nodes with one frame of values a call. Errors are a return value: `false`, with the error
+// kept in the evaluator. Depth is limited three ways: calls by Limits::call_depth, the height of an expression by the
+// parser, and both together by the bytes of stack they use.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <unordered_map>
+#include <unordered_set>
+#include <vector>
+
+#include "raymo/sml/builtins/builtin.hpp"
+#include "raymo/sml/program.hpp"
+#include "raymo/sml/value.hpp"
+
+namespace raymo::sml {
+
+/// Values of frames and arguments: grows in chunks that never move.
+class ValueStack {
+public:
+    struct Mark {
+        std::size_t chunk = 0;
+        std::size_t used = 0;
+    };
+    [[nodiscard]] Mark mark() const { return {chunk_, used_}; }
+    /// `count` missing values.
+    [[nodiscard]] Value* push(std::size_t count);
+    /// Gives back the last `count` values pushed, from `first` on.
+    void pop(Value* first, std::size_t count, Mark before);
+
+private:
+    static constexpr std::size_t kChunk = 8192;
+    struct Chunk {
+        std::unique_ptr<Value[]> values;
+        std::size_t size = 0;
+    };
+    std::vector<Chunk> chunks_;
+    std::size_t chunk_ = 0;
+    std::size_t used_ = 0;
+};
+
+class Evaluator {
+public:
+    Evaluator(Program& program, const Host& host, Outcome& outcome, Reporter& reporter);
+
+    /// The whole program. False: an error was reported.
+    bool run();
+
+    // ---- For builtins
+
+    /// Reports an error at a place; always false.
+    bool fail(ErrorCode code, SourceSpan where, std::string message, std::string hint = {},
+              std::string label = {});
+    bool fail(Error error);
+    /// Calls a function value with arguments by position.
+    bool call(const Value& function, std::span<const Value> arguments, NodeId site, Value& out);
+    /// To be called once for every piece of work that a program repeats. False: a limit was passed or the user
+    /// stopped.
+    bool step(NodeId site) {
+        if (++steps_ % kStepsBetweenChecks != 0 && heap_.bytes() <= host_.limits.bytes) return true;
+        return check_limits(site);
+    }
+    /// False, with an error, when `bytes` more would pass the limit.
+    bool room(double bytes, NodeId site);
+    /// Counts a new node of a solid. `is_primitive`: against the limit of solids too.
+    bool made(const csg::Solid& solid, bool is_primitive, NodeId site);
+    /// A Boolean of two solids or `nothing`.
+    bool combine(csg::Op op, std::vector<csg::Solid> operands, NodeId site, SourceSpan span,
+                 Value& out);
+    bool binary(Operator op, const Value& a, const Value& b, NodeId site, SourceSpan span,
+                NodeId left, NodeId right, Value& out);
+    /// Deep equality.
+    bool equal(const Value& a, const Value& b, NodeId site, bool& out);
+    /// As print and ${...} show it.
+    bool show(const Value& value, NodeId site, std::string& out);
+    [[nodiscard]] csg::MaterialId material(const scene::Material& material);
+
+    [[nodiscard]] SourceSpan span(NodeId node) const { return program_.ast[node].span(); }
+    [[nodiscard]] Program& program() { return program_; }
+    [[nodiscard]] const Host& host() const { return host_; }
+    [[nodiscard]] scene::Scene& scene() { return outcome_.scene; }
+    /// False while an imported file runs: it contributes names only.
+    [[nodiscard]] bool in_main_file() const { return in_main_file_; }
+
+private:
+    friend class Call;
+    static constexpr std::uint32_t kStepsBetweenChecks = 1024;
+    static constexpr std::size_t kMaxStackBytes = 5U << 20;
+
+    enum class Flow : std::uint8_t { normal, broke, continued, returned, failed };
+
+    struct Frame {
+        Value* slots = nullptr;
+        const FunctionObject* closure = nullptr;
+        const Frame* caller = nullptr;
+        NodeId site = kNoNode;
+        std::uint32_t function = 0xffffffffU;
+    };
+
+    // Expressions (eval_expr.cpp)
+    bool eval(NodeId id, Value& out);
+    bool eval_name(const Node& n, NodeId id, Value& out);
+    bool eval_list(const Node& n, NodeId id, Value& out);
+    bool eval_record(const Node& n, Value& out);
+    bool eval_range(const Node& n, NodeId id, double& low, double& step, double& count);
+    bool eval_binary(const Node& n, NodeId id, Value& out);
+    bool eval_chain(const Node& n, NodeId id, Value& out);
+    bool eval_member(const Node& n, Value& out);
+    bool eval_index(const Node& n, NodeId id, Value& out);
+    bool eval_interpolation(const Node& n, NodeId id, Value& out);
+    bool eval_comprehension(const Node& n, NodeId id, Value& out);
+    bool comprehend(const Node& n, NodeId id, std::uint32_t clause, std::vector<Value>& items);
+    bool eval_minus(const Node& n, NodeId id, Value& out);
+    bool condition(NodeId id, std::string_view what, bool& out);
+    bool number_of(NodeId id, std::string_view what, double& out);
+    bool element(const Value& list, double index, NodeId id, NodeId index_node, Value& out);
+
+    // Calls (eval_call.cpp)
+    bool eval_call(const Node& n, NodeId id, Value& out);
+    bool eval_method(const Node& n, NodeId id, Value& out);
+    bool call_planned(const CallPlan& plan, const Node& n, NodeId id, std::uint32_t first,
+                      const Value* receiver, const Value& callee, Value& out);
+    bool call_dynamic(const Value& callee, const Node& n, NodeId id, std::uint32_t first,
+                      const Value* receiver, Value& out);
+    bool run_builtin(std::uint32_t row, Value* slots, std::size_t count, NodeId id,
+                     const CallPlan* plan, std::uint32_t first, Value& out);
+    bool enter_function(const FunctionObject& closure, Value* slots, NodeId id, Value& out);
+    void make_closure(NodeId lambda, Value& out);
+    void enter(std::uint32_t entry);
+
+    // Statements (eval_stmt.cpp)
+    Flow exec(NodeId id);
+    Flow exec_block(const Node& n);
+    Flow exec_for(const Node& n);
+    Flow exec_while(const Node& n, NodeId id);
+    bool exec_expression(const Node& n, NodeId id);
+    bool exec_assertion(const Node& n);
+    bool exec_param(const Node& n);
+    bool exec_part(const Node& n);
+    bool exec_view(const Node& n);
+    bool exec_assign(const Node& n);
+    bool check_domain(NodeId domain, const std::string& name, const Value& value, SourceSpan where);
+    bool bind(NodeId pattern, Value value, NodeId source);
+    void store(const Node& name, Value value);
+    /// Calls f(element) for each element of a list, range or text; f returns false to stop.
+    template <class F>
+    bool for_each(NodeId source, F&& f);
+
+    // Scene
+    enum class Shown : std::uint8_t { yes, no, failed };
+    Shown show_in_scene(const Value& value, NodeId node, bool is_emitted);
+    void add_part(std::string name, csg::Solid solid, SourceSpan where);
+    [[nodiscard]] std::string part_name(NodeId node) const;
+
+    bool check_limits(NodeId site);
+    [[nodiscard]] bool stack_left(NodeId site);
+    void collect_docs();
+
+    Program& program_;
+    const Ast& ast_;
+    const Host& host_;
+    Outcome& outcome_;
+    Reporter& reporter_;
+    Heap heap_;
+    ValueStack stack_;
+    std::vector<Value> globals_;
+    Frame* frame_ = nullptr;
+    Value returned_;
+    double started_ = 0.0;
+    double solids_ = 0.0;
+    std::uint32_t steps_ = 0;
+    int depth_ = 0;
+    const char* stack_base_ = nullptr;
+    bool in_main_file_ = false;
+    std::unordered_multimap<std::size_t, csg::MaterialId> materials_;
+    std::unordered_map<std::string, std::uint32_t> part_names_;
+    std::unordered_set<NodeId> warned_;
+    std::unordered_map<NodeId, TextRange> docs_;
+    std::uint32_t unnamed_parts_ = 0;
+};
+
+/// The numbers of a range; see RangeObject.
+[[nodiscard]] double range_count(double low, double high, double step, bool is_open);
+
+}  // namespace raymo::sml
