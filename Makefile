@@ -10,6 +10,7 @@ export CTEST_PARALLEL_LEVEL ?= $(shell nproc)
 
 raymo := build/release/apps/raymo/raymo
 demo_model := examples/goblet.raymo
+demo_options := --size 1200x600
 demo_picture := out/demo.png
 
 help: ## this list
@@ -19,8 +20,12 @@ help: ## this list
 	    printf '%-30s%s\n' "$$target" "$$text"; done
 
 demo: release ## install what is missing, build, and draw the picture of the README
-	@mkdir -p out
-	$(raymo) render $(demo_model) -o $(demo_picture)
+	@mkdir -p $(dir $(demo_picture))
+	@if [ $(demo_picture) -nt $(raymo) ] && [ $(demo_picture) -nt $(demo_model) ]; then \
+	    echo "$(demo_picture) is newer than the program and $(demo_model)"; \
+	else \
+	    set -x; $(raymo) render $(demo_model) $(demo_options) -o $(demo_picture); \
+	fi
 	@echo "The picture is $(CURDIR)/$(demo_picture)"
 
 test: ## install what is missing, build, and pass the tests

@@ -38,12 +38,12 @@ matches() {
         BEGIN { while ((getline text < expected) > 0) want[++n] = text }
         { have[++m] = $0 }
         function fits(i, j) {
-            for (; i <= n; ++i, ++j) {
+            while (i <= n) {
                 if (want[i] == "...") {
                     for (; j <= m + 1; ++j) if (fits(i + 1, j)) return 1
                     return 0
                 }
-                if (j > m || want[i] != have[j]) return 0
+                if (j > m || want[i++] != have[j++]) return 0
             }
             return j > m
         }
