@@ -416,7 +416,7 @@ void Flattener::normalise(Work& work, CompiledSolid& out) {
         leaf.displacement = float_above(displacement * out.scale);
         leaf.order = order;
         const Aabb box{(clip.lo - out.centre) * out.scale, (clip.hi - out.centre) * out.scale};
-        // The float test of a ray errs by less than 2^-18 for origins within 16 of the centre; a
+        // The float test of a ray errs by less than 2^-18 for origins within 8 of the centre; a
         // crossing may be uncertain by kDegenerate of the leaf's size and must not precede its box.
         const double margin =
             0x1p-18 + 2.0 * kDegenerate * max_norm(box.size()) + leaf.displacement;

@@ -7,6 +7,7 @@
 #include "raymo/core/assert.hpp"
 #include "raymo/math/lanes.hpp"
 #include "raymo/math/tolerance.hpp"
+#include "raymo/trace/base_ray.hpp"
 #include "raymo/trace/data.hpp"
 #include "raymo/trace/walk.hpp"
 
@@ -18,77 +19,7 @@ using solids::LocalRay;
 //
 #include "raymo/trace/surface.inl"
 
-/// A ray in the frame of the base solid: x = (o + s d), and how s gives the user's t.
-struct BaseRay {
-    Vec3 o, d;
-    double shift = 0.0;    ///< s = 0 stands at this parameter (in lengths of d) of the user's ray
-    double t_per_s = 1.0;  ///< user's t = (s + shift) * t_per_s
-    double error = 0.0;    ///< of o
-    double step = 0.0;     ///< how far the ray was moved aside
-
-    [[nodiscard]] double to_s(double t) const { return t / t_per_s - shift; }
-    [[nodiscard]] double to_t(double s) const { return (s + shift) * t_per_s; }
-};
-
-/// a + b = sum + rest, exactly [Knuth].
-struct Sum {
-    double sum, rest;
-};
-Sum two_sum(double a, double b) {
-    const double s = a + b;
-    const double bb = s - a;
-    return {s, (a - (s - bb)) + (b - bb)};
-}
-
-/// The power of two that brings `size` (normal, > 0) to [1, 2).
-double binary_inverse(double size) {
-    const std::uint64_t exponent = std::bit_cast<std::uint64_t>(size) >> 52;
-    // 2046 - exponent is the exponent of the inverse; it would not be normal for 0 and for the largest numbers.
-    if (exponent == 0 || exponent >= 2046) return std::ldexp(1.0, -std::ilogb(size));
-    return std::bit_cast<double>((2046 - exponent) << 52);
-}
-
-/// An origin far away is moved to the point of the line nearest to the solid, in doubled precision,
-/// so that the distance costs no accuracy.
-BaseRay base_ray(const CompiledSolid& solid, const RayQuery& query) {
-    BaseRay out;
-    const Vec3 direction = query.ray.direction;
-    const double unit_scale = binary_inverse(max_norm(direction));
-    out.t_per_s = unit_scale / solid.scale;
-    Vec3 low;
-    for (int a = 0; a < 3; ++a) {
-        const Sum s = two_sum(query.ray.origin[a], -solid.centre[a]);
-        out.o[a] = s.sum * solid.scale;
-        low[a] = s.rest * solid.scale;
-        out.d[a] = direction[a] * unit_scale;
-    }
-    const double far = max_norm(out.o);
-    out.error = query.start_error * solid.scale + 4.0 * kUnitRoundoff * std::min(far, 16.0);
-    if (far > 16.0) {
-        out.shift = -dot(out.o, out.d) / dot(out.d, out.d);
-        for (int a = 0; a < 3; ++a) {
-            const double product = out.shift * out.d[a];
-            const double rest = std::fma(out.shift, out.d[a], -product);
-            const Sum s = two_sum(out.o[a], product);
-            out.o[a] = s.sum + (s.rest + (rest + low[a]));
-        }
-        out.error += 8.0 * kUnitRoundoff * (max_norm(out.o) + kUnitRoundoff * far);
-    }
-    return out;
-}
-
-/// Moves the ray sideways, in a new generic direction at each attempt.
-BaseRay moved_aside(BaseRay ray, double step, int attempt) {
-    Vec3 s, t;
-    make_frame(unit(ray.d), s, t);
-    const double angle = 0.7390851332 + 2.39996322973 * attempt;
-    const double length = step * static_cast<double>(1 << (2 * attempt));
-    ray.o += s * (length * std::cos(angle)) + t * (length * std::sin(angle));
-    ray.step = length;
-    ray.error += length * 0x1p-20;
-    return ray;
-}
-
+/// After so many steps aside crossings are taken as they are.
 constexpr int kAttempts = 6;
 
 }  // namespace
@@ -110,7 +41,6 @@ struct Tracer::State {
             c.d[a][i] = ray.d[a];
         }
         c.t0[i] = 0.0;
-        // A ray that was moved aside starts beside its surface, by as much.
         c.error[i] = ray.error;
         w.lanes[i].reset(ray.to_s(0.0), ray.to_s(query.t_max));
         set_box_ray(c, i, w.lanes[i].start, w.lanes[i].limit, w.mode == Mode::all);
@@ -138,32 +68,17 @@ struct Tracer::State {
         simple = base.simple && (mode == Mode::first || !data->has_transparency);
         start(eight, mode);
         eight.active = (1U << queries.size()) - 1U;
-        Nearest& n = eight.nearest;
-        for (std::size_t i = 0; i < kPacket; ++i) {
-            if (i >= queries.size()) {
-                copy_ray(static_cast<int>(i), static_cast<int>(queries.size()) - 1);
-                continue;
-            }
-            rays[i] = base_ray(base, queries[i]);
-            place(eight, static_cast<int>(i), rays[i], queries[i]);
-            n.start[i] = eight.lanes[i].start;
-            n.limit[i] = eight.lanes[i].limit;
-            n.shift[i] = rays[i].shift;
-            n.t_per_s[i] = rays[i].t_per_s;
-        }
         std::uint32_t deferred = 0;
         if (simple) {
-            for (std::size_t i = 0; i < kPacket; ++i) {
-                n.lo[i] = n.t[i] = n.hi[i] = n.second_lo[i] = n.trouble_lo[i] = kInfinity;
-                n.start_hi[i] = -kInfinity;
-                n.error[i] = n.face[i] = 0.0;
-                n.leaf[i] = -1.0;
-                n.found[i] = false;
-            }
-            n.deferred = 0;
-            walk_simple(eight, mode == Mode::first);
-            deferred = n.deferred;
+            walk_simple(eight, queries.data(), static_cast<int>(queries.size()),
+                        mode == Mode::first);
+            deferred = eight.nearest.deferred;
         } else {
+            for (std::size_t i = 0; i < kPacket; ++i) {
+                const RayQuery& query = queries[std::min(i, queries.size() - 1)];
+                rays[i] = base_ray(base, query);
+                place(eight, static_cast<int>(i), rays[i], query);
+            }
             walk(eight);
             for (std::size_t i = 0; i < queries.size(); ++i) {
                 deferred |= (eight.lanes[i].stepped_aside ? 1U : 0U) << i;
@@ -172,25 +87,6 @@ struct Tracer::State {
         counts.boxes += eight.boxes;
         counts.leaves += eight.leaves;
         return deferred;
-    }
-    /// Fills an unused place of a packet with a ray that is there.
-    void copy_ray(int to, int from) {
-        Context<8>& c = eight.contexts[0];
-        for (int a = 0; a < 3; ++a) {
-            c.o[a][to] = c.o[a][from];
-            c.d[a][to] = c.d[a][from];
-            c.fo[a][to] = c.fo[a][from];
-            c.inverse[a][to] = c.inverse[a][from];
-        }
-        c.from[to] = c.from[from];
-        c.to[to] = c.to[from];
-        c.t0[to] = c.t0[from];
-        c.error[to] = c.error[from];
-        Nearest& n = eight.nearest;
-        n.start[to] = n.start[from];
-        n.limit[to] = n.limit[from];
-        n.shift[to] = n.shift[from];
-        n.t_per_s[to] = n.t_per_s[from];
     }
     /// The hit of ray `i` of a packet that walk_simple has answered.
     void fill(Hit& hit, std::size_t i) const;
@@ -209,7 +105,7 @@ struct Tracer::State {
             counts.leaves += one.leaves;
             if (!one.lanes[0].stepped_aside) return ray;
             step = std::max(step, kSidestep * one.lanes[0].step);
-            ray = moved_aside(straight, step, attempt);
+            ray = moved_aside(straight, step, attempt, query.start.leaf != SurfaceId::kNone);
         }
     }
     template <int L>
@@ -351,8 +247,7 @@ void Tracer::occluded(std::span<const RayQuery> queries, bool* blocked) {
             s.trace_one(queries[i], Mode::any);
             blocked[i] = s.one.lanes[0].blocked;
         } else {
-            blocked[i] =
-                s.data->solids.front().simple ? s.eight.nearest.found[i] : s.eight.lanes[i].blocked;
+            blocked[i] = s.simple ? s.eight.nearest.found[i] : s.eight.lanes[i].blocked;
         }
     }
 }

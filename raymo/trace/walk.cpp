@@ -23,6 +23,7 @@
 
 #include "raymo/math/lanes.hpp"
 #include "raymo/math/tolerance.hpp"
+#include "raymo/trace/base_ray.hpp"
 #include "raymo/trace/lane_kinds.hpp"
 
 HWY_BEFORE_NAMESPACE();
@@ -39,6 +40,7 @@ using solids::LocalRay;
 #include "raymo/trace/surface.inl"
 //
 #include "raymo/trace/nearest-inl.hpp"
+#include "raymo/trace/prepare-inl.hpp"
 
 /// Opens what lies nearest until every ray has its answer.
 template <int L>
@@ -74,7 +76,9 @@ HWY_INLINE void walk_all(Walker<L>& w) {
 
 void walk1(Walker<1>& w) { walk_all(w); }
 void walk8(Walker<8>& w) { walk_all(w); }
-void walk_simple8(Walker<8>& w, bool surfaces) {
+void walk_simple8(Walker<8>& w, const RayQuery* queries, int count, bool surfaces) {
+    prepare_packet(w, queries, count);
+    reset_nearest(w.nearest);
     walk_nearest(w);
     settle_nearest(w);
     if (surfaces) finish_nearest(w);
@@ -93,8 +97,8 @@ HWY_EXPORT(walk_simple8);
 
 void walk(Walker<1>& walker) { HWY_DYNAMIC_DISPATCH(walk1)(walker); }
 void walk(Walker<8>& walker) { HWY_DYNAMIC_DISPATCH(walk8)(walker); }
-void walk_simple(Walker<8>& walker, bool surfaces) {
-    HWY_DYNAMIC_DISPATCH(walk_simple8)(walker, surfaces);
+void walk_simple(Walker<8>& walker, const RayQuery* queries, int count, bool surfaces) {
+    HWY_DYNAMIC_DISPATCH(walk_simple8)(walker, queries, count, surfaces);
 }
 
 }  // namespace raymo::trace

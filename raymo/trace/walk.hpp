@@ -10,8 +10,8 @@ namespace raymo::trace {
 /// answers.
 void walk(Walker<1>& walker);
 void walk(Walker<8>& walker);
-/// The nearest surfaces of a simple solid, seen from outside: answers, or defers rays, in walker.nearest. `surfaces`: also
-/// fill in Nearest::surface.
-void walk_simple(Walker<8>& walker, bool surfaces);
+/// The nearest surfaces of a simple solid, seen from outside, for `count` rays: answers, or defers rays, in
+/// walker.nearest. `surfaces`: also fill in Nearest::surface.
+void walk_simple(Walker<8>& walker, const RayQuery* queries, int count, bool surfaces);
 
 }  // namespace raymo::trace
