@@ -72,10 +72,7 @@ Attempt<Parsed> parse_arguments(const std::string& command, const Args& argument
 
     Parsed parsed;
     RawOptions& raw = parsed.raw;
-    std::vector<std::string> files;
-    app.add_option("FILE", files, "the model, or - for standard input")
-        ->type_name("")
-        ->allow_extra_args(false);
+    app.add_option("FILE", raw.file, "the model, or - for standard input")->type_name("");
     std::map<std::string, std::string, std::less<>> values;
     std::map<std::string, bool, std::less<>> flags;
     for (const OptionInfo& o : options()) {
@@ -112,19 +109,6 @@ Attempt<Parsed> parse_arguments(const std::string& command, const Args& argument
         return trouble(kCommandWrong, e.what());
     }
 
-    for (const std::string& rest : app.remaining()) {
-        if (rest.size() > 1 && rest[0] == '-') return unknown(command, rest);
-        files.push_back(rest);
-    }
-    if (files.size() > 1) {
-        return trouble(kCommandWrong, "one FILE is taken at a time; found " + in_quotes(files[0]) +
-                                          " and " + in_quotes(files[1]));
-    }
-    if (files.empty()) {
-        return trouble(kCommandWrong, "no FILE given",
-                       "raymo " + command + " " + std::string(info.synopsis));
-    }
-    raw.file = files[0];
     for (const OptionInfo& o : options()) {
         const std::string key(o.key);
         const std::string shown(o.name.substr(o.name.find("--")));
@@ -147,6 +131,15 @@ Attempt<Parsed> parse_arguments(const std::string& command, const Args& argument
             if (value.empty()) return trouble(kCommandWrong, "option " + shown + " needs a value");
         }
         if (key != "output" && key != "define") raw.values[key] = values[key];
+    }
+    for (const std::string& rest : app.remaining()) {
+        if (rest.size() > 1 && rest[0] == '-') return unknown(command, rest);
+        return trouble(kCommandWrong, "one FILE is taken at a time; found " + in_quotes(raw.file) +
+                                          " and " + in_quotes(rest));
+    }
+    if (raw.file.empty()) {
+        return trouble(kCommandWrong, "no FILE given",
+                       "raymo " + command + " " + std::string(info.synopsis));
     }
     return parsed;
 }

@@ -33,6 +33,10 @@ std::string seconds(double s) {
     return number(static_cast<double>(static_cast<long>(s * 1e4 + 0.5)) / 1e4);
 }
 
+double seconds_since(Watch::Clock::time_point start) {
+    return std::chrono::duration<double>(Watch::Clock::now() - start).count();
+}
+
 }  // namespace
 
 double cpu_seconds() {
@@ -68,7 +72,6 @@ Attempt<sml::Host> Session::host(Watch& watch) {
     };
     out.answers = make_answers(&watch);
     out.print = [this](std::string_view line) { console.note(line); };
-    out.seconds = cpu_seconds;
     out.limits.call_depth = options.call_depth;
     out.limits.solids = options.solids;
     if (options.time_limit) out.limits.seconds = *options.time_limit;
@@ -89,28 +92,46 @@ Attempt<sml::Host> Session::host(Watch& watch) {
 int Session::evaluate() {
     if (const int code = read(); code != kDone) return code;
     Watch watch(console, "evaluating", deadline_);
-    const Attempt<sml::Host> given = host(watch);
+    Attempt<sml::Host> given = host(watch);
     if (!given) return explain(given.error());
     {
         const Timer timer(stats.evaluate);
+        const Watch::Clock::time_point start = Watch::Clock::now();
+        // The language looks at the clock for the first time when it begins to run what it has parsed.
+        bool running = false;
+        given->seconds = [this, start, &running] {
+            if (!std::exchange(running, true)) stats.parse += seconds_since(start);
+            return cpu_seconds();
+        };
+        const double before = stats.parse;
         outcome =
             sml::evaluate(options.file == "-" ? "<stdin>" : options.file, std::move(text), *given);
+        if (!running) stats.parse += seconds_since(start);  // it never came to that
+        stats.evaluate -= stats.parse - before;
     }
     if (!outcome.ok && watch.cancelled()) return stopped(watch);
     return print_diagnostics();
 }
 
 int Session::print_diagnostics() {
-    int code = outcome.ok ? kDone : kModelWrong;
+    // What -D and --params say is part of the command line.
+    const auto is_of_command = [this](const Error& e) {
+        if (!e.where.known()) return e.code == ErrorCode::name;
+        return outcome.sources[e.where.file].path.starts_with("-D ");
+    };
+    bool model_wrong = false;
+    int code = outcome.ok ? kDone : kCommandWrong;
     std::string out;
     std::size_t errors = 0;
     for (const sml::Diagnostic& d : outcome.diagnostics) {
-        if (d.severity == sml::Severity::error && ++errors > kMostErrors) continue;
+        if (d.severity == sml::Severity::error) {
+            model_wrong = model_wrong || !is_of_command(d.error);
+            if (++errors > kMostErrors) continue;
+        }
         out += sml::format(d, outcome.sources, console.color);
         if (!out.ends_with('\n')) out += '\n';
-        if (d.severity == sml::Severity::error && d.error.code == ErrorCode::cancelled)
-            code = kInterrupted;
     }
+    if (!outcome.ok && (model_wrong || errors == 0)) code = kModelWrong;
     if (errors > kMostErrors)
         out += "and " + std::to_string(errors - kMostErrors) + " more errors\n";
     console.raw(out);

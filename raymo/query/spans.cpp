@@ -9,11 +9,12 @@ namespace {
 NamedEnd named(const trace::CompiledScene& scene, const trace::Tracer& tracer,
                const trace::Hit& hit) {
     NamedEnd end;
-    end.t = hit.t;
-    end.point = hit.point;
+    end.t = hit.t + 0.0;
+    constexpr Vec3 kPlus{};  // turns -0 into 0, for readers
+    end.point = hit.point + kPlus;
     end.on_surface = std::isfinite(hit.t) && hit.surface.leaf != trace::SurfaceId::kNone;
     if (!end.on_surface) return end;
-    end.normal = hit.normal;
+    end.normal = hit.normal + kPlus;
     const std::string& name = scene.material(hit.material).name;
     end.material = hit.material == csg::kNoMaterial || name.empty() ? std::string_view("default")
                                                                     : std::string_view(name);
