@@ -25,7 +25,7 @@ camera { perspective location <8, 7, -20> up y right x*image_width/image_height 
   #end
 #end
 box { <-60, -7, -60>, <60, -6, 60> Paint(<0.8, 0.8, 0.8>, <0, 0, 1>) }
-box { <-6.5, -5.5, -9>, <9.5, 6, -8>
+box { <-30, -5.5, -9>, <30, 20, -8>
       pigment { rgbt 1 }
-      finish { ambient 0 diffuse 0 specular 0 #if (!Flat) reflection { 0, 1 fresnel } conserve_energy #end }
+      finish { ambient 0 diffuse 0 specular 0 reflection { 0, 1 fresnel } conserve_energy }
       interior { ior 1.5 } }
