@@ -17,7 +17,9 @@ namespace raymo::image {
 namespace {
 
 constexpr std::uint32_t kFirst = (127U - 13U) << 8U;  ///< class of 2^-13; below it every code is 0
-constexpr std::uint32_t kClasses = 13U << 8U;         ///< up to 1
+constexpr float kDarkest = 0x1p-13F;
+constexpr float kBrightest = 0x1.fffffep-1F;   ///< the last float before 1
+constexpr std::uint32_t kClasses = 13U << 8U;  ///< up to 1
 
 class Encoder {
 public:
@@ -38,11 +40,11 @@ public:
     }
 
     [[nodiscard]] std::uint8_t operator()(float x) const {
-        // Written so that NaN is black.
-        if (!(x > 0x1p-13F)) return 0;
-        if (x >= 1.0F) return 255;
-        const std::uint8_t c = code_[(std::bit_cast<std::uint32_t>(x) >> 15U) - kFirst];
-        return static_cast<std::uint8_t>(c + (x >= threshold_[c] ? 1 : 0));
+        // What is too dark or too bright is brought to the end of the table; so is what is no number, to the dark end.
+        const float low = x > kDarkest ? x : kDarkest;
+        const float in = low < kBrightest ? low : kBrightest;
+        const std::uint8_t c = code_[(std::bit_cast<std::uint32_t>(in) >> 15U) - kFirst];
+        return static_cast<std::uint8_t>(c + (in >= threshold_[c] ? 1 : 0));
     }
 
 private:
@@ -54,7 +56,8 @@ private:
 
 void to_srgb8(const float* linear, std::size_t count, std::uint8_t* out) {
     static const Encoder kEncoder;
-    for (std::size_t i = 0; i < count; ++i) out[i] = kEncoder(linear[i]);
+    const Encoder& encode = kEncoder;
+    for (std::size_t i = 0; i < count; ++i) out[i] = encode(linear[i]);
 }
 
 std::vector<std::uint8_t> to_srgb8(const Film& film) {

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "raymo/image/zeroed_memory.hpp"
 #include "raymo/math/vec.hpp"
 
 namespace raymo::image {
@@ -13,7 +14,7 @@ namespace raymo::image {
 struct Film {
     int width = 0;
     int height = 0;
-    std::vector<float> rgb;
+    std::vector<float, Zeroed<float>> rgb;
 
     Film() = default;
     Film(int w, int h)

@@ -15,6 +15,8 @@ constexpr int kMostSamples = 1 << 16;
 /// The part of the work that is the first pass, for the progress bar: a guess.
 constexpr double kFirstPass = 0.6;
 
+using Signatures = std::vector<Signature, image::Zeroed<Signature>>;
+
 EyeRay middle_ray(const Sitting& s, int x, int y) {
     return {s.view.ray(x + 0.5, y + 0.5), pixel_seed(s.options.seed, x, y), 0, 1};
 }
@@ -60,7 +62,7 @@ void draw_samples(const Sitting& s, const Rect& tile, std::uint32_t samples, Ray
 }
 
 /// Marks the pixels of `tile` that differ from a neighbour.
-void mark_edges(const image::Film& film, const std::vector<Signature>& seen, const Rect& tile,
+void mark_edges(const image::Film& film, const Signatures& seen, const Rect& tile,
                 std::vector<std::uint8_t>& edge) {
     const auto w = static_cast<std::size_t>(film.width);
     const auto at = [w](int x, int y) {
@@ -105,7 +107,7 @@ bool draw_final(const Sitting& s) {
 
     const bool once = s.options.samples == 1;
     const std::size_t pixels = s.film.rgb.size() / 3;
-    std::vector<Signature> seen(once ? 0 : pixels);
+    Signatures seen(once ? 0 : pixels);
     const auto w = static_cast<std::size_t>(s.film.width);
     const auto draw_middles = [&](const Rect& tile, RayShader& shader) {
         Packet packet(shader, [&](std::size_t pixel, const Answer& answer) {

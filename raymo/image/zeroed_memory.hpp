@@ -1,0 +1,48 @@
+// Memory for large arrays of numbers that start at 0.
+//
+// Fresh pages come from the system filled with zeros, one fault a page: at 12 bytes a pixel that costs as much as a
+// preview's rays. So nothing is cleared twice, and where the system can it is asked for large pages.
+#pragma once
+
+#include <cstddef>
+#include <new>
+
+namespace raymo::image {
+
+/// `bytes` > 0 of zeros, or null. To be freed with std::free.
+[[nodiscard]] void* allocate_zeroed(std::size_t bytes);
+void free_zeroed(void* memory);
+
+/// Allocator for vectors of plain numbers that are 0 when made; elements are not written again by a constructor
+/// without value. Only for types for which all bits 0 is the value 0, and only for vectors that do not grow.
+template <class T>
+struct Zeroed {
+    using value_type = T;
+
+    Zeroed() = default;
+    template <class U>
+    explicit(false) Zeroed(const Zeroed<U>&) {}
+
+    [[nodiscard]] T* allocate(std::size_t count) {
+        if (void* memory = allocate_zeroed(count * sizeof(T))) return static_cast<T*>(memory);
+        // As every container does when there is no memory.
+        throw_out_of_memory(count * sizeof(T));
+        return nullptr;
+    }
+    void deallocate(T* memory, std::size_t) { free_zeroed(memory); }
+    void construct(T*) {}
+    template <class... Args>
+    void construct(T* place, Args&&... args) {
+        ::new (static_cast<void*>(place)) T(static_cast<Args&&>(args)...);
+    }
+    template <class U>
+    friend bool operator==(const Zeroed&, const Zeroed<U>&) {
+        return true;
+    }
+
+private:
+    /// Fails in the way operator new does; this layer is compiled without exceptions.
+    static void throw_out_of_memory(std::size_t bytes) { ::operator delete(::operator new(bytes)); }
+};
+
+}  // namespace raymo::image
