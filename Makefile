@@ -34,9 +34,9 @@ test: ## install what is missing, build, and pass the tests
 
 laws: ## the laws of every solid, with the full number of rays
 	@scripts/install-dependencies build test
-	@cmake --preset dev > /dev/null
-	@cmake --build --preset dev --target laws
-	@build/dev/tests/laws/laws --full
+	@[ -e build/dev/build.ninja ] || cmake --preset dev
+	@cmake --build --preset dev --target raymo_laws
+	@build/dev/tests/laws/raymo_laws --full
 
 bench: ## measure against POV-Ray, with a gate on equal answers
 	@scripts/install-dependencies build bench

@@ -12,8 +12,8 @@ function(raymo_layer name)
   set(tests ${sources})
   list(FILTER tests INCLUDE REGEX "_test\\.cpp$")
   list(FILTER sources EXCLUDE REGEX "_(test|laws)\\.cpp$")
-  # Highway compiles *-inl.hpp once per instruction set, within another file.
-  list(FILTER headers EXCLUDE REGEX "-inl\\.hpp$")
+  # Highway compiles *-inl.hpp once per instruction set, within another file; test_*.hpp belong to the tests.
+  list(FILTER headers EXCLUDE REGEX "-inl\\.hpp$|/test_[a-z_]*\\.hpp$")
 
   set(scope PUBLIC)
   if(sources)
