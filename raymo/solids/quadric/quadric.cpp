@@ -96,14 +96,15 @@ Result<Placed<Quadric::Kernel>> Quadric::prepare(std::span<const Argument> argum
         return wrong_matrix("quadric: no point has a value below 0, so there is no solid",
                             "change the sign of the matrix, or of its last entry");
     }
-    if (!is_finite(shape.centre)) {
+    const Vec3 origin = shape.origin(form);
+    if (!is_finite(origin)) {
         return wrong_matrix("quadric: entries differ too much in size to be computed with",
                             "give the matrix in other units");
     }
     const double scale = std::ldexp(1.0, std::ilogb(shape.size()));
     Affine map = scaling({scale, scale, scale});
-    map.offset = shape.centre;
-    return Placed<Kernel>{Kernel(moved(form, shape.centre, scale)), map};
+    map.offset = origin;
+    return Placed<Kernel>{Kernel(moved(form, origin, scale)), map};
 }
 
 std::span<const std::vector<Argument>> Quadric::examples() {

@@ -11,6 +11,12 @@ namespace {
 
 constexpr double kInf = std::numeric_limits<double>::infinity();
 
+/// A principal value below this part of the largest one is taken as 0: 64 roundings.
+constexpr double kNoValue = 128.0 * kUnitRoundoff;
+/// The canonical origin is not moved along axes with a value below this part of the largest one: the centre would be
+/// farther away than 2^10 times the other axes' sizes, and rounding errors with it.
+constexpr double kWeakValue = 0x1p-20;
+
 /// A sum of products with twice the working precision [OgitaRumpOishi05].
 class LongSum {
 public:
@@ -75,11 +81,14 @@ void find_axes(const Mat3& a, QuadricShape& shape) {
         rotate_away(m, shape.axis, 0, 2);
         rotate_away(m, shape.axis, 1, 2);
     }
-    const Mat3 size = abs(a);
+    // Axes that no rotation has touched have exact values. The others carry the rounding of the user's own computation of
+    // the entries, which had to cancel where a value is meant to be 0.
+    const double largest = std::max({std::fabs(m[0][0]), std::fabs(m[1][1]), std::fabs(m[2][2])});
     for (std::size_t i = 0; i < 3; ++i) {
         const Vec3 v = abs(shape.axis[i]);
-        const double rounding = 16.0 * kUnitRoundoff * dot(v, size * v);
-        shape.value[i] = std::fabs(m[i][i]) > rounding ? m[i][i] : 0.0;
+        const bool turned = max_norm(v) != v.x + v.y + v.z;
+        const bool zero = turned && std::fabs(m[i][i]) <= kNoValue * largest;
+        shape.value[i] = zero ? 0.0 : m[i][i];
     }
 }
 
@@ -139,6 +148,29 @@ QuadricShape analyse(const QuadraticForm& form) {
         shape.level = 0.0;
     }
     return shape;
+}
+
+Vec3 QuadricShape::origin(const QuadraticForm& form) const {
+    const bool closed = value[0] > 0.0 && value[1] > 0.0 && value[2] > 0.0;
+    const double largest =
+        std::max({std::fabs(value[0]), std::fabs(value[1]), std::fabs(value[2])});
+    Vec3 place;
+    for (std::size_t i = 0; i < 3; ++i) {
+        if (value[i] == 0.0 || (!closed && std::fabs(value[i]) < kWeakValue * largest)) continue;
+        place -= axis[i] * (dot(axis[i], form.b) / value[i]);
+    }
+    if (closed) return place;
+    // Along the axes that are left, on to the surface, if that is near.
+    Vec3 rest = form.half_gradient(place);
+    for (std::size_t i = 0; i < 3; ++i) {
+        if (value[i] == 0.0 || std::fabs(value[i]) < kWeakValue * largest) continue;
+        rest -= axis[i] * dot(axis[i], rest);
+    }
+    const double steepness = dot(rest, rest);
+    if (!(steepness > 0.0)) return place;
+    const Vec3 step = rest * (-0.5 * form(place) / steepness);
+    const double near = 1024.0 * (norm(place) + size());
+    return largest == 0.0 || norm(step) <= near ? place + step : place;
 }
 
 bool QuadricShape::has_negative_value() const {

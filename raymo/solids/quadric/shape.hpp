@@ -28,6 +28,9 @@ struct QuadricShape {
     /// The largest of n.x over the solid f <= 0; infinite where there is none. The solid must have
     /// an interior.
     [[nodiscard]] double support(Vec3 n) const;
+    /// A good origin for the canonical frame of f, whose shape this is: the centre or vertex, unless that is far away
+    /// from the surface.
+    [[nodiscard]] Vec3 origin(const QuadraticForm& form) const;
     /// A length of the size of the surface: largest semi-axis of an ellipsoid, waist of a
     /// hyperboloid, 1 for a cone.
     [[nodiscard]] double size() const;

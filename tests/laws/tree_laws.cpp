@@ -1,0 +1,104 @@
+// Random Booleans with many coincident faces, judged point by point; and packets against single rays.
+#include <cstring>
+
+#include "tests/laws/rays.hpp"
+
+namespace raymo::laws {
+namespace {
+
+void random_trees(std::uint64_t rays, Random& random, Tally& tally) {
+    constexpr std::uint64_t kRaysEach = 12;
+    while (tally.rays < rays) {
+        Traced traced(grid_tree(random, 1 + random.below(4)));
+        if (!traced.ok()) {
+            tally.exception(traced.error() + ": " + text(*traced.model()));
+            continue;
+        }
+        for (std::uint64_t i = 0; i < kRaysEach; ++i) {
+            const AimedRay aimed = any_ray(random, kGridSize, 0.5);
+            judge_ray(traced, *traced.model(), aimed.ray, kGridSize, aimed.rounding, random, tally);
+        }
+    }
+}
+
+bool same_bits(double a, double b) { return std::memcmp(&a, &b, sizeof a) == 0; }
+bool same_bits(Vec3 a, Vec3 b) {
+    return same_bits(a.x, b.x) && same_bits(a.y, b.y) && same_bits(a.z, b.z);
+}
+
+bool same_hit(const trace::Hit& a, const trace::Hit& b) {
+    return same_bits(a.t, b.t) && same_bits(a.error, b.error) && same_bits(a.point, b.point) &&
+           same_bits(a.point_error, b.point_error) && same_bits(a.normal, b.normal) &&
+           a.entering == b.entering && a.part == b.part && a.material == b.material &&
+           a.medium_before == b.medium_before && a.medium_after == b.medium_after &&
+           a.surface == b.surface;
+}
+
+void packets(std::uint64_t rays, Random& random, Tally& tally) {
+    constexpr std::size_t kMost = trace::Tracer::kPacket;
+    while (tally.rays < rays) {
+        Traced traced(grid_tree(random, 1 + random.below(5)));
+        if (!traced.ok()) {
+            tally.exception(traced.error() + ": " + text(*traced.model()));
+            continue;
+        }
+        for (int packet = 0; packet < 40; ++packet) {
+            // Close together, as pixels are, or not at all.
+            const std::size_t count =
+                random.chance(0.7) ? kMost : 1 + static_cast<std::size_t>(random.below(8));
+            const AimedRay first = any_ray(random, kGridSize, 0.5);
+            const bool coherent = random.chance(0.6);
+            std::vector<trace::RayQuery> queries(count);
+            for (trace::RayQuery& query : queries) {
+                query.ray = coherent ? first.ray : any_ray(random, kGridSize, 0.5).ray;
+                if (coherent)
+                    query.ray.direction += random.in_cube(0.01 * norm(query.ray.direction));
+                if (random.chance(0.3)) query.t_max = random.uniform(0, 10);
+            }
+            trace::Hit together[kMost];
+            bool found[kMost] = {}, blocked[kMost] = {};
+            traced.tracer().first_hits(queries, together, found);
+            traced.tracer().occluded(queries, blocked);
+            for (std::size_t i = 0; i < count; ++i) {
+                trace::Hit alone;
+                const bool hit = traced.tracer().first_hit(queries[i], alone);
+                ++tally.rays;
+                ++tally.samples;
+                if (hit != found[i] || (hit && !same_hit(alone, together[i]))) {
+                    tally.exception("first_hits differs from first_hit: " +
+                                    describe(*traced.model(), queries[i].ray));
+                }
+                if (traced.tracer().occluded(queries[i]) != blocked[i]) {
+                    tally.exception("occluded: packet differs from single: " +
+                                    describe(*traced.model(), queries[i].ray));
+                }
+            }
+        }
+    }
+}
+
+void from_far_away(std::uint64_t rays, Random& random, Tally& tally) {
+    while (tally.rays < rays) {
+        Traced traced(grid_tree(random, 1 + random.below(3)));
+        if (!traced.ok()) {
+            tally.exception(traced.error() + ": " + text(*traced.model()));
+            continue;
+        }
+        for (int i = 0; i < 12; ++i) {
+            AimedRay aimed = any_ray(random, kGridSize, 0.5);
+            const double distance = std::pow(10.0, random.uniform(3, 12));
+            aimed.ray.origin -= aimed.ray.direction * (distance / norm(aimed.ray.direction));
+            judge_ray(traced, *traced.model(), aimed.ray, kGridSize, aimed.rounding, random, tally);
+        }
+    }
+}
+
+}  // namespace
+
+void add_tree_laws(std::vector<Law>& laws) {
+    laws.push_back({"trees: rays and points agree (12 rays a tree)", 1200000, random_trees});
+    laws.push_back({"trees: rays from up to 1e12 away", 200000, from_far_away});
+    laws.push_back({"packets: equal single rays bit for bit", 1000000, packets});
+}
+
+}  // namespace raymo::laws
