@@ -8,6 +8,16 @@
 #include "raymo/sml/text.hpp"
 
 namespace raymo::sml {
+namespace {
+
+std::string bytes_text(double bytes) {
+    const bool is_large = bytes >= 0x1p30;
+    const double unit = is_large ? 0x1p30 : (bytes >= 0x1p20 ? 0x1p20 : 0x1p10);
+    return fmt::format("{} {}", number_text(std::floor(bytes / unit * 10.0) / 10.0),
+                       is_large ? "GiB" : (unit == 0x1p20 ? "MiB" : "KiB"));
+}
+
+}  // namespace
 
 Evaluator::Evaluator(Program& program, const Host& host, Outcome& outcome, Reporter& reporter)
     : program_(program), ast_(program.ast), host_(host), outcome_(outcome), reporter_(reporter) {
@@ -46,8 +56,8 @@ bool Evaluator::check_limits(NodeId site) {
 bool Evaluator::room(double bytes, NodeId site) {
     if (heap_.bytes() + bytes <= host_.limits.bytes) return true;
     return fail(ErrorCode::limit, span(site),
-                fmt::format("the memory of the program passed its limit of {} MiB",
-                            number_text(std::floor(host_.limits.bytes / (1 << 20)))),
+                fmt::format("the memory of the program passed its limit of {}",
+                            bytes_text(host_.limits.bytes)),
                 "share solids with repeat(), ring() or grid(); --memory-limit allows more");
 }
 

@@ -1,6 +1,7 @@
 // Text to tokens, one at a time: nothing is stored, so the length of a text costs no memory.
 #pragma once
 
+#include <algorithm>
 #include <string>
 #include <string_view>
 
@@ -22,6 +23,10 @@ public:
     [[nodiscard]] std::string string_value(const Token& token) const;
     /// While quiet, errors are not reported: the text is being skipped.
     void set_quiet(bool quiet) { quiet_ = quiet; }
+    /// Goes to the end of the line.
+    void skip_line() {
+        at_ = static_cast<std::uint32_t>(std::min(text_.find('\n', at_), text_.size()));
+    }
     [[nodiscard]] std::string_view text() const { return text_; }
 
 private:

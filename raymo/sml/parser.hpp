@@ -72,7 +72,8 @@ private:
     NodeId pattern();
     NodeId binding();
     void end_of_statement();
-    void recover();
+    void skip_statement(int brackets, std::size_t indent);
+    [[nodiscard]] std::size_t indent_of(std::uint32_t offset) const;
     [[nodiscard]] static bool begins_statement(TokenKind kind);
 
     // Expressions (parser_expr.cpp), from the loosest to the tightest

@@ -64,6 +64,12 @@ void Parser::error(std::uint32_t begin, std::uint32_t end, std::string message, 
 
 void Parser::unexpected(std::string_view expected, std::string hint) {
     if (hint.empty() && at(TokenKind::assign)) hint = "to compare, write `==`";
+    const bool line_ended = token_.newline_before && (lines_end_statements_ || at(TokenKind::end));
+    if (line_ended && previous_end_ > 0) {  // the place to mend is the end of the line before
+        error(previous_end_ - 1, previous_end_,
+              fmt::format("expected {}, found the end of the line", expected), std::move(hint));
+        return;
+    }
     error(token_.begin, token_.end, fmt::format("expected {}, found {}", expected, found()),
           std::move(hint));
 }
@@ -154,6 +160,32 @@ bool Parser::begins_statement(TokenKind kind) {
     }
 }
 
+std::size_t Parser::indent_of(std::uint32_t offset) const {
+    const std::size_t newline =
+        offset == 0 ? std::string_view::npos : lexer_.text().rfind('\n', offset - 1);
+    return newline == std::string_view::npos ? offset : offset - newline - 1;
+}
+
+// To the beginning of the next statement. Where a bracket was left open, a line that begins with a keyword or is not
+// indented further than the broken statement is taken for a new one.
+void Parser::skip_statement(int brackets, std::size_t indent) {
+    while (!at(TokenKind::end) && !stopped_) {
+        const bool closes = at(TokenKind::close_brace);
+        if (closes && open_brackets_ < brackets) return;
+        const bool is_bracket =
+            closes || at(TokenKind::close_paren) || at(TokenKind::close_bracket);
+        const bool ends = token_.newline_before || at(TokenKind::semicolon);
+        if (open_brackets_ <= brackets && ends && !is_bracket) return;
+        if (token_.newline_before &&
+            (begins_statement(token_.kind) || (!is_bracket && indent_of(token_.begin) <= indent))) {
+            return;
+        }
+        lexer_.set_quiet(true);
+        advance();
+        lexer_.set_quiet(false);
+    }
+}
+
 void Parser::statements(std::vector<NodeId>& out, TokenKind closing) {
     while (!stopped_ && !at(TokenKind::end) && !at(closing)) {
         if (accept(TokenKind::semicolon)) continue;
@@ -169,22 +201,13 @@ void Parser::statements(std::vector<NodeId>& out, TokenKind closing) {
             at(TokenKind::open_paren) || at(TokenKind::open_bracket) || at(TokenKind::open_brace);
         const int brackets = open_brackets_ - (opens ? 1 : 0);
         const TextRange doc = token_.doc_before;
+        const std::uint32_t begin = token_.begin;
+        const std::size_t indent = indent_of(token_.begin);
         const NodeId node = statement();
         if (!in_error_) end_of_statement();
         if (in_error_) {
-            while (!at(TokenKind::end) && !stopped_) {
-                if (token_.newline_before && begins_statement(token_.kind)) break;
-                const bool closes = at(TokenKind::close_brace);
-                if (closes && open_brackets_ < brackets) break;
-                if (open_brackets_ <= brackets &&
-                    (token_.newline_before || at(TokenKind::semicolon)) && !closes &&
-                    !at(TokenKind::close_paren) && !at(TokenKind::close_bracket)) {
-                    break;
-                }
-                lexer_.set_quiet(true);
-                advance();
-                lexer_.set_quiet(false);
-            }
+            skip_statement(brackets, indent);
+            if (token_.begin == begin && !at(TokenKind::end)) advance();  // never stand still
             const bool next_opens = at(TokenKind::open_paren) || at(TokenKind::open_bracket) ||
                                     at(TokenKind::open_brace);
             const bool next_closes = at(TokenKind::close_brace);
@@ -453,7 +476,9 @@ NodeId Parser::simple_statement() {
             return make(NodeKind::assertion, begin, nodes);
         }
         case TokenKind::kw_else:
-            error(token_.begin, token_.end, "this `else` has no `if`");
+            error(token_.begin, token_.end, "this `else` has no `if`",
+                  "it follows the `}` of an `if`");
+            advance();
             return invalid();
         default:
             break;

@@ -17,6 +17,11 @@ namespace {
 
 constexpr std::uint32_t kMainLevel = 0xffffffffU;
 
+std::string_view file_name(std::string_view path) {
+    const std::size_t slash = path.rfind('/');
+    return slash == std::string_view::npos ? path : path.substr(slash + 1);
+}
+
 struct Variable {
     Symbol symbol = kNoSymbol;
     NodeId node = kNoNode;  ///< binding or parameter
@@ -264,7 +269,7 @@ private:
         for (const auto& [known, exported] : module.names) suggestion.consider(text(known));
         reporter_.error(ErrorCode::name, name.span(),
                         fmt::format("`{}` is not declared in `{}`", text(name.symbol),
-                                    sources_[module.file].path),
+                                    file_name(sources_[module.file].path)),
                         suggestion.hint());
     }
 

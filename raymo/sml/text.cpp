@@ -11,7 +11,7 @@ std::string number_text(double value) {
     std::array<char, 64> text{};
     const double size = std::fabs(value);
     const auto format =
-        size >= 1e-6 && size < 1e15 ? std::chars_format::fixed : std::chars_format::general;
+        size >= 1e-6 && size < 1e21 ? std::chars_format::fixed : std::chars_format::general;
     const auto end = std::to_chars(text.data(), text.data() + text.size(), value, format).ptr;
     return {text.data(), end};
 }

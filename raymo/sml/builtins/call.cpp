@@ -169,26 +169,27 @@ bool Call::numbers(std::size_t i, std::vector<double>& out) {
     return true;
 }
 
-bool Call::matrix(std::size_t i, std::array<double, 16>& out) {
-    constexpr std::string_view kWanted = "4 rows of 4 numbers, or 3 rows of 4";
-    if (!has(i) || !slots_[i].is(Tag::list)) return wrong_kind(i, kWanted);
+bool Call::matrix(std::size_t i, bool is_square, std::array<double, 16>& out) {
+    const std::string_view wanted =
+        is_square ? "4 rows of 4 numbers" : "4 rows of 4 numbers, or 3 rows of 4";
+    if (!has(i) || !slots_[i].is(Tag::list)) return wrong_kind(i, wanted);
     std::vector<double> flat;
     for (const Value& row : slots_[i].items()) {
         if (row.is(Tag::number)) {
             flat.push_back(row.number());
         } else if (row.is(Tag::list) && row.items().size() == 4) {
             for (const Value& x : row.items()) {
-                if (!x.is(Tag::number)) return wrong_kind(i, kWanted);
+                if (!x.is(Tag::number)) return wrong_kind(i, wanted);
                 flat.push_back(x.number());
             }
         } else {
-            return wrong_kind(i, kWanted);
+            return wrong_kind(i, wanted);
         }
         if (flat.size() > 16) break;
     }
-    if (flat.size() != 12 && flat.size() != 16) {
+    if ((is_square || flat.size() != 12) && flat.size() != 16) {
         return fail(i, ErrorCode::bad_argument,
-                    fmt::format("{} must be {}", argument_name(i), kWanted), {},
+                    fmt::format("{} must be {}", argument_name(i), wanted), {},
                     fmt::format("this has {} numbers", flat.size()));
     }
     out = {};

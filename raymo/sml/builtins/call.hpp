@@ -57,8 +57,8 @@ public:
     bool function(std::size_t i);
     /// A list of numbers.
     bool numbers(std::size_t i, std::vector<double>& out);
-    /// 12 or 16 numbers by rows, also as a list of rows. 12: the last row is 0 0 0 1.
-    bool matrix(std::size_t i, std::array<double, 16>& out);
+    /// 16 numbers by rows, also as a list of rows; 12 too unless `is_square`: then the last row is 0 0 0 1.
+    bool matrix(std::size_t i, bool is_square, std::array<double, 16>& out);
     /// "#rrggbb", a CSS name or (r, g, b) in sRGB, as linear light; `name` gets what was written.
     bool colour(std::size_t i, scene::Colour& out, std::string& name);
     /// One of `choices`.

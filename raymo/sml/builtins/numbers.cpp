@@ -38,6 +38,10 @@ bool tangent(Call& call, Value& out) {
         return call.fail(0, ErrorCode::out_of_range, "there is no tangent of 90 degrees", {},
                          fmt::format("this is {}", number_text(x)));
     }
+    const double eighth =
+        std::fmod(std::fabs(x), 180.0);  // exact: 45 and 135 degrees give 1 and -1
+    if (eighth == 45.0 || eighth == 135.0)
+        return call.result((eighth == 45.0) == (x > 0.0) ? 1.0 : -1.0, out);
     return call.result(sc.sin / sc.cos, out);
 }
 

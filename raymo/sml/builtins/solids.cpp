@@ -70,7 +70,7 @@ bool take(Call& call, const solids::Param& param, std::size_t slot, std::size_t 
         }
         case solids::ParamKind::matrix: {
             std::array<double, 16> value{};
-            if (!call.matrix(slot, value)) return false;
+            if (!call.matrix(slot, true, value)) return false;
             out = value;
             return true;
         }

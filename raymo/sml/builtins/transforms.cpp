@@ -179,7 +179,7 @@ bool to_affine(Call& call, std::size_t i, Affine& out) {
         return true;
     }
     std::array<double, 16> m{};
-    if (!call.matrix(i, m)) return false;
+    if (!call.matrix(i, false, m)) return false;
     if (m[12] != 0.0 || m[13] != 0.0 || m[14] != 0.0 || m[15] != 1.0) {
         return call.fail(i, ErrorCode::bad_argument, "the last row must be 0, 0, 0, 1",
                          "perspective is no solid's transformation");
