@@ -43,7 +43,10 @@ std::vector<std::string> names_of(std::string_view command) {
 tl::unexpected<Trouble> unknown(const std::string& command, const std::string& argument) {
     const std::string name = argument.substr(0, argument.find('='));
     for (const OptionInfo& o : options()) {
-        if (!takes(command, o) && o.name.substr(o.name.find("--")) == name) {
+        const std::size_t dashes = o.name.find("--");
+        const bool is_it =
+            o.name.substr(dashes) == name || (dashes == 3 && o.name.substr(0, 2) == name);
+        if (is_it && !takes(command, o)) {
             return trouble(
                 kCommandWrong, "raymo " + command + " has no option " + name,
                 "it belongs to: raymo " + std::string(o.only.substr(0, o.only.find(' '))));

@@ -19,6 +19,7 @@
 #include <thread>
 #include <vector>
 #else
+#include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/partitioner.h>
 #include <oneapi/tbb/task_arena.h>
@@ -52,7 +53,11 @@ private:
 /// worker's scratch memory is used by one thread at a time.
 class Parallel final : public Executor {
 public:
-    explicit Parallel(int threads) : arena_(threads), threads_(static_cast<std::size_t>(threads)) {}
+    explicit Parallel(int threads)
+        : allowed_(oneapi::tbb::global_control::max_allowed_parallelism,
+                   static_cast<std::size_t>(threads)),
+          arena_(threads),
+          threads_(static_cast<std::size_t>(threads)) {}
     [[nodiscard]] std::size_t workers() const override { return threads_; }
     void for_each(std::size_t count, const Task& task) override {
         std::atomic<std::size_t> next{0};
@@ -71,6 +76,7 @@ public:
     }
 
 private:
+    oneapi::tbb::global_control allowed_;  // more threads than processors are the user's choice
     oneapi::tbb::task_arena arena_;
     std::size_t threads_;
 };

@@ -15,8 +15,8 @@ std::string clock_time(double seconds) {
     if (!(seconds < 359'999.0)) return "--:--";
     const auto whole = static_cast<long>(std::ceil(seconds));
     const auto two = [](long n) { return (n < 10 ? "0" : "") + std::to_string(n); };
-    const std::string tail = two(whole / 60 % 60) + ":" + two(whole % 60);
-    return whole >= 3600 ? std::to_string(whole / 3600) + ":" + tail : tail;
+    if (whole < 3600) return std::to_string(whole / 60) + ":" + two(whole % 60);
+    return std::to_string(whole / 3600) + ":" + two(whole / 60 % 60) + ":" + two(whole % 60);
 }
 
 }  // namespace
