@@ -14,7 +14,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     host.limits.solids = 1000;
     host.limits.call_depth = 200;
     host.limits.bytes = 16.0 * (1 << 20);
-    host.limits.seconds = 0.5;
+    host.limits.seconds = 0.1;
     host.seconds = [] { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; };
     host.answers.contains = [](const csg::Solid& s, Vec3 p) -> Result<bool> {
         return csg::bounds(s).contains(p);
