@@ -4,8 +4,8 @@
 // A convex solid is an intersection of parts, each of which a line meets in one interval [lo, hi]
 // whose ends are known to within an error. Of the intersection we keep, beside its most likely
 // ends, the widest and the narrowest interval that the errors allow:
-//     widest   = [ max(lo - error), min(hi + error) ],   narrowest = [ max(lo + error), min(hi -
-//     error) ].
+//     widest   = [ max(lo - error), min(hi + error) ],
+//     narrowest = [ max(lo + error), min(hi - error) ].
 // An end lies between the two, so a part that is met at a grazing angle widens the error of the
 // whole only when it may really bound it.
 template <class R>
@@ -67,7 +67,7 @@ inline void close_window(const Window<R>& w, const LocalRay<R>& ray, R length, M
                          LaneSpans<R, M, N>& out) {
     const R enter_error = lane_max(w.enter_last - w.enter, w.enter - w.enter_first);
     const R exit_error = lane_max(w.exit - w.exit_first, w.exit_last - w.exit);
-    const R limit = (R(kDegenerate) + R(64.0) * (ray.ex + ray.ey + ray.ez)) / length;
+    const R limit = (R(kDegenerate) + R(1024.0) * (ray.ex + ray.ey + ray.ez)) / length;
     const M met = lane_and(possible, w.enter_first <= w.exit_last);
     out.valid[i] = lane_and(possible, w.exit - w.enter > enter_error + exit_error);
     out.degenerate = lane_and(met, lane_or(enter_error > limit, exit_error > limit));

@@ -46,7 +46,7 @@ int main(int argc, char** argv) {
         Random random(seed * 1000003 + number);
         Tally tally;
         const auto begin = std::chrono::steady_clock::now();
-        law.run(full ? law.full : law.full / 500 + 50, random, tally);
+        law.run(full ? law.full : law.full / 100 + 50, random, tally);
         const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
         // A law that judged nothing has not been kept.
         const bool kept = tally.exceptions == 0 && tally.samples > 0;

@@ -44,7 +44,8 @@ void mapped_rays(const std::string& name, double far, std::uint64_t rays, Random
                  Tally& tally) {
     constexpr std::uint64_t kRaysEach = 250;
     while (tally.rays < rays) {
-        const double scale = std::pow(10.0, random.uniform(-6, 6));
+        // At 1e8 the last bit is 1e-8, so there the solids are not made smaller.
+        const double scale = std::pow(10.0, random.uniform(far > 0.0 ? 0 : -6, 6));
         const Affine map = translation(random.in_cube(far)) * scaling({scale, scale, scale}) *
                            random_map(random, 4);
         Traced traced(moved(solid(name, random), map));
@@ -55,10 +56,9 @@ void mapped_rays(const std::string& name, double far, std::uint64_t rays, Random
         const double size = max_norm(map.offset) + 40.0 * scale;
         for (std::uint64_t i = 0; i < kRaysEach; ++i) {
             AimedRay aimed = any_ray(random, 6.0, 0.5);
-            // Along the solid's own axes and planes, up to the rounding of the map: so moved aside at times.
             const double rounding = aimed.rounding == kLoose ? kLoose : kTight;
             const Ray ray{map(aimed.ray.origin), map.linear * aimed.ray.direction};
-            judge_ray(traced, *traced.model(), ray, size, rounding, random, tally);
+            judge_ray(traced, *traced.model(), ray, size, aimed.rounding, random, tally);
         }
     }
 }

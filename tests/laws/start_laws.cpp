@@ -1,4 +1,6 @@
 // Rays that start on a surface: the surface itself is not met again, and what comes next is right.
+#include <cstdio>
+
 #include "tests/laws/rays.hpp"
 
 namespace raymo::laws {
@@ -37,7 +39,12 @@ void bounces(std::uint64_t rays, Random& random, Tally& tally,
                 const bool found = traced.tracer().first_hit(next, met);
                 ++tally.rays;
                 const auto fault = [&](const char* what) {
-                    tally.exception(what + (": " + describe(*traced.model(), next.ray)));
+                    char start[100];
+                    std::snprintf(start, sizeof start,
+                                  ", from leaf %u face %d, start error %g: ", next.start.leaf,
+                                  static_cast<int>(next.start.face), next.start_error);
+                    tally.exception(std::string(what) + start +
+                                    describe(*traced.model(), next.ray));
                 };
                 ++tally.samples;
                 if (found && !(met.t >= 0.0)) fault("hit behind the start");

@@ -2,21 +2,23 @@
 // or several (see math/lanes.hpp). Included once per instruction set, after solids/interval.inl.
 //
 // k is the radius at z = 1, so m = (1 + k) / 2, g = (1 - k) / 2. Along the line
-//     f(s) = x^2 + y^2 - q^2 = A s^2 + 2 B s + C,   A = dx^2 + dy^2 - g^2 dz^2,   B = ox dx + oy dy
-//     + g dz q0, C = ox^2 + oy^2 - q0^2,   q0 = m - g oz.
+//     f(s) = x^2 + y^2 - q^2 = A s^2 + 2 B s + C,
+//     A = dx^2 + dy^2 - g^2 dz^2,  B = ox dx + oy dy + g dz q0,  C = ox^2 + oy^2 - q0^2,
+//     q0 = m - g oz.
 //   A > 0  the line is flatter than the cone's generators: it is inside one of the two nappes
-//   between the roots. A < 0  it is steeper: inside the one nappe before the first root, inside the
-//   other after the second. Ours, q > 0, is
-//          the first when the line rises.
+//          between the roots.
+//   A < 0  it is steeper: inside the one nappe before the first root, inside the other after the
+//          second. Ours, q > 0, is the first when the line rises.
 // The slab |z| <= 1 cuts off the other nappe. The roots are r1 = Q / A, r2 = C / Q with
-// Q = -(B + sign(B) sqrt(B^2 - A C)): no cancellation, and A near 0 (parallel to a generator) sends
-// r1 to infinity.
+//     Q = -(B + sign(B) sqrt(B^2 - A C)):
+// no cancellation, and A near 0 (parallel to a generator) sends r1 to infinity.
 //
 // Error. Within the solid |x|, |y|, q <= 1 and |s| |d| <= sqrt(2). An error e of the line changes f
 // by at most 2 (ex + ey + g ez) and squares; eight roundings of the coefficients, of k and of the
-// root formula count as at most 8 u (d.d s^2 + 2 |B| s + |o|^2 + q0^2) <= 8 u (4 + 2 |o|^2 + 2
-// q0^2). Together E; roots of f +- E differ from those of f by at most E / sqrt(max(D, |A| E)), D =
-// B^2 - A C. With A > 0 and D + A E < 0 there is no root.
+// root formula count as at most
+//     8 u (d.d s^2 + 2 |B| s + |o|^2 + q0^2) <= 8 u (4 + 2 |o|^2 + 2 q0^2).
+// Together E; roots of f +- E differ from those of f by at most E / sqrt(max(D, |A| E)),
+// D = B^2 - A C. With A > 0 and D + A E < 0 there is no root.
 template <class R, class M>
 inline void cone_spans(double k, const LocalRay<R>& ray, LaneSpans<R, M, 1>& out) {
     const R zero = R(0.0);

@@ -1,15 +1,16 @@
 // Spans of the cylinder x^2 + y^2 <= 1, |z| <= 1, for one ray or several (see math/lanes.hpp).
 // Included once per instruction set, after solids/interval.inl.
 //
-// In the plane z = 0 the line has the point nearest to the axis at s0 = -(ox dx + oy dy) / a,  a =
-// dx^2 + dy^2,  and its distance from the axis is  p = |ox dy - oy dx| / sqrt(a).  It is inside for
-// |s - s0| <= h,  h^2 = (1 - p^2) / a.
+// In the plane z = 0 the line has the point nearest to the axis at s0 and the distance p from it:
+//     s0 = -(ox dx + oy dy) / a,  p = |ox dy - oy dx| / sqrt(a),  a = dx^2 + dy^2.
+// It is inside for |s - s0| <= h,  h^2 = (1 - p^2) / a.
 //
 // Error. Along the line f(s) = |xy(s)|^2 - 1 = a ((s - s0)^2 - h^2). Where the line is within the
 // solid, |x|, |y| <= 1, an error e of it changes f by at most E = 2 (ex + ey) + ex^2 + ey^2, plus
-// rounding: of p^2 and 1 - p^2, below 16 u (1 + ox^2 + oy^2). The ends move from h to sqrt(h^2 +- E
-// / a), so by at most (E / a) / sqrt(max(h^2, E / a)). Rounding of s0 adds 6 u |o| / sqrt(a). A
-// line (nearly) parallel to the axis, a < 2^-200 d.d, is tilted by 2^-100, which changes nothing
+// rounding: of p^2 and 1 - p^2, below 16 u (1 + ox^2 + oy^2). The ends move from h to
+// sqrt(h^2 +- E / a), so by at most (E / a) / sqrt(max(h^2, E / a)). Rounding of s0 adds
+// 6 u |o| / sqrt(a).
+// A line (nearly) parallel to the axis, a < 2^-200 d.d, is tilted by 2^-100, which changes nothing
 // within the solid.
 template <class R, class M>
 inline void cylinder_spans(const LocalRay<R>& ray, LaneSpans<R, M, 1>& out) {

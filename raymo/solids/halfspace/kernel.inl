@@ -24,7 +24,7 @@ inline void halfspace_spans(const LocalRay<R>& ray, LaneSpans<R, M, 1>& out) {
     const M all = lane_and(parallel, ray.oz <= R(0.0));
     const M none = lane_and(parallel, ray.oz > R(0.0));
     const M near = lane_abs(ray.oz) <= reach * (sine + slack);
-    const M uncertain = ray.ez > sine * (R(kDegenerate) + R(64.0) * ray.ez);
+    const M uncertain = ray.ez > sine * (R(kDegenerate) + R(1024.0) * ray.ez);
     const M from_infinity = lane_or(all, rising);
     const M to_infinity = lane_or(all, lane_not(rising));
     out.valid[0] = lane_not(none);

@@ -4,14 +4,16 @@
 // unbounded, so s may have any size, and A, B and C may be zero, alone or together.
 //
 // Error. The line is off by at most e for |s| |d| <= 1 and by e (1 + |s| |d|) beyond, so f(x) by
-//     E(s) = 2 |Ax + b|.e (1 + |s| |d|) + (e.|A|e) (1 + |s| |d|)^2 + 8 u (|f|)(|x|)  <=  E0 + E1
-//     |s| + E2 s^2
+//     E(s) = 2 |Ax + b|.e (1 + |s| |d|) + (e.|A|e) (1 + |s| |d|)^2 + 8 u (|f|)(|x|)
+//         <= E0 + E1 |s| + E2 s^2
 // where |f| is f with the absolute values of its coefficients: eight roundings of the coefficients,
-// of A, B and C, and of the root formula. A root r is certain to within E / sqrt(max(D, |A| E)), D
-// = B^2 - A C, E = 2 E(r): the 2 allows for the change of E between r and the true root. |A| <= E2
-// means that the sign of A is not known: the line is parallel to a generator, and one root or both
-// lie farther away than the line is known to be straight. A is then taken as 0; so is B when 2 |B|
-// <= E1, and the line is inside or outside altogether.
+// of A, B and C, and of the root formula. A root r is certain to within
+//     E / sqrt(max(D, |A| E)),  D = B^2 - A C,
+// where E is E(r) and what E may change by up to the true root.
+//
+// |A| <= E2 means that the sign of A is not known: the line is parallel to a generator, and one
+// root or both lie farther away than the line is known to be straight. A is then taken as 0; so is
+// B when 2 |B| <= E1, and the line is inside or outside altogether.
 #include <cmath>
 #include <limits>
 
@@ -41,7 +43,8 @@ struct Line {
     [[nodiscard]] bool degenerate(const SpanEnd& end) const {
         const double place = std::fabs(end.s) * length;
         const double blur = end.error * length;
-        return !(blur <= (kDegenerate + 64.0 * e_size) * (1.0 + place)) && !(place - blur > kReach);
+        return !(blur <= (kDegenerate + 1024.0 * e_size) * (1.0 + place)) &&
+               !(place - blur > kReach);
     }
 };
 
@@ -116,8 +119,15 @@ void Quadric::Kernel::spans(const LocalRay<double>& ray, SpanList& out) const {
     const double r1 = far / a;
     const double r2 = disc > 0.0 ? c / far : r1;
     const auto end = [&](double s) {
-        const double slack = 2.0 * line.error(s);
-        return SpanEnd{s, slack / std::sqrt(std::max(disc, std::fabs(a) * slack)), 0};
+        // E at this very place; once more for how it may differ at the true root.
+        const double place = std::max(1.0, std::fabs(s) * line.length / 1.75);
+        const Vec3 x = o + d * s;
+        double slack = 2.0 * dot(abs(form_.half_gradient(x)), e) * place + q * place * place +
+                       u * form_.magnitude(x);
+        double error = slack / std::sqrt(std::max(disc, std::fabs(a) * slack));
+        slack += 4.0 * g1 * error * place;
+        error = slack / std::sqrt(std::max(disc, std::fabs(a) * slack));
+        return SpanEnd{s, error, 0};
     };
     const SpanEnd low = end(std::min(r1, r2));
     const SpanEnd high = end(std::max(r1, r2));

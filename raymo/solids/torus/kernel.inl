@@ -2,26 +2,27 @@
 // math/lanes.hpp). Included once per instruction set.
 //
 // The equation is not squared. With s measured in lengths of d and o.d = 0, along the line
-//     G(s) = (q - a)^2 + z^2 - b^2 = s^2 + |o|^2 + a^2 - b^2 - 2 a q(s),    G'(s) = 2 h(s),   h(s)
-//     = s - a q'(s).
+//     G(s) = (q - a)^2 + z^2 - b^2 = s^2 + |o|^2 + a^2 - b^2 - 2 a q(s),
+//     G'(s) = 2 h(s),  h(s) = s - a q'(s).
 // q(s) is a hyperbola: convex, least at c = -(ox dx + oy dy) / A, A = dx^2 + dy^2, with q' rising
 // from -sqrt(A) to sqrt(A), convex before c and concave after. Reverse the line where needed so
 // that c >= 0. Then, since h(c) = c >= 0,
-//   before c  h is concave and rises from below: exactly one zero m, a minimum of G, in [-a
-//   sqrt(A), 0]; after c   h is convex: no zero, or two of them: a maximum x of G and then a second
-//   minimum n <= a sqrt(A).
-//             Newton's method from the right end falls monotonically onto n, or finds h' <= 0 and
-//             there is none.
+//   before c  h is concave and rises from below: exactly one zero m, a minimum of G, in
+//             [-a sqrt(A), 0];
+//   after c   h is convex: no zero, or two of them, a maximum x of G and then a second minimum
+//             n <= a sqrt(A). Newton's method from the right end falls monotonically onto n, or
+//             finds h' <= 0 and there is none.
 // Where G(m) < 0 and G(n) < 0 and G(x) > 0 there are two spans, and in every other case at most
 // one. Each end lies in a bracket between such places, where G changes sign once, and is found by
 // Newton's method kept inside the bracket. Spindles (b > a) need no special care: {G <= 0} is the
 // filled solid, which the squared equation is not.
 //
 // Error. |grad G| = 2 sqrt(w), w = (q - a)^2 + z^2, so an error of at most e' = |e| + 8 u of the
-// point (the line's, and the roundings of o + s d, of q, a and b) changes G by E = 2 sqrt(w) e' +
-// e'^2 <= (w / b + b) e' + e'^2, besides 4 u (w + b^2) of G's own. Signs count only where |G| > E.
-// An end is certain to within r when G > E at r on its outer side and G < -E at r on its inner
-// side; r starts at 2 E / |G'|, or sqrt(E) where that is less, and grows until both hold. It does so in the end, since the extrema
+// point (the line's, and the roundings of o + s d, of q, a and b) changes G by
+//     E = 2 sqrt(w) e' + e'^2 <= (w / b + b) e' + e'^2,
+// besides 4 u (w + b^2) of G's own. Signs count only where |G| > E. An end is certain to within r
+// when G > E at r on its outer side and G < -E at r on its inner side; r starts at 2 E / |G'|, or
+// sqrt(E) where that is less, and grows until both hold. It does so in the end, since the extrema
 // to both sides were found to be certain. This covers contact of any order.
 template <class R>
 struct TorusLine {

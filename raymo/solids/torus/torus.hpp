@@ -5,8 +5,8 @@
 // spans; derivation in kernel.inl. Its convex hull is the circle's disc grown by b, so its support
 // in direction n is a |(n_x, n_y)| + b |n|. Volume and area by Pappus' rule over the part of the
 // circle with q = a + b cos v > 0, |v| <= w: w = pi for a >= b, else cos w = -a / b:
-//     V = 2 pi b (a^2 sin w + a b (w + sin w cos w) + b^2 (sin w - sin^3 w / 3)),   A = 4 pi b (a w
-//     + b sin w).
+//     V = 2 pi b (a^2 sin w + a b (w + sin w cos w) + b^2 (sin w - sin^3 w / 3)),
+//     A = 4 pi b (a w + b sin w).
 // Ref: [Wijk86 2.3].
 #pragma once
 
