@@ -102,7 +102,7 @@ void open_instance(Walker<L>& w, std::uint32_t parent, std::uint32_t leaf_index,
             nearest = t < nearest ? t : nearest;
         }
     }
-    w.push({nearest, 0, index, 0, static_cast<std::uint8_t>(lanes)});
+    put_off(w, {nearest, 0, index, 0, static_cast<std::uint8_t>(lanes)});
 }
 
 template <int L, class Visit>

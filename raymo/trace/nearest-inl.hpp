@@ -242,7 +242,7 @@ HWY_INLINE void walk_nearest(Walker<8>& w) {
     Nearest& n = w.nearest;
     Context<8>& c = w.contexts[0];
     w.unopened.clear();
-    w.push({-kInfinity, 0, 0, 0, static_cast<std::uint8_t>(w.active)});
+    put_off(w, {-kInfinity, 0, 0, 0, static_cast<std::uint8_t>(w.active)});
     while (!w.unopened.empty()) {
         const Unopened box = w.unopened.back();
         w.unopened.pop_back();

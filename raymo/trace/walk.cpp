@@ -46,7 +46,7 @@ using solids::LocalRay;
 template <int L>
 HWY_INLINE void walk_all(Walker<L>& w) {
     w.unopened.clear();
-    w.push({-kInfinity, 0, 0, 0, static_cast<std::uint8_t>(w.active)});
+    put_off(w, {-kInfinity, 0, 0, 0, static_cast<std::uint8_t>(w.active)});
     while (!w.unopened.empty()) {
         const Unopened box = w.unopened.back();
         for (std::uint32_t rest = w.active; rest != 0; rest &= rest - 1) {

@@ -225,15 +225,6 @@ struct Walker {
     /// The ray has met everything: settles what is left.
     void finish(int lane);
 
-    void push(const Unopened& box) {
-        std::size_t i = unopened.size();
-        unopened.push_back(box);
-        while (i > 0 && unopened[i - 1].t < box.t) {
-            unopened[i] = unopened[i - 1];
-            --i;
-        }
-        unopened[i] = box;
-    }
     [[nodiscard]] const Leaf& leaf_of(const Event& e) const {
         return contexts[e.context].solid->leaves[e.leaf];
     }
