@@ -39,7 +39,7 @@ void ask_to_stop(int signal) {
         return;
     }
     itimerval soon{};
-    soon.it_value.tv_usec = 80'000;
+    soon.it_value.tv_usec = 25'000;
     setitimer(ITIMER_REAL, &soon, nullptr);
 }
 

@@ -1,6 +1,6 @@
 // Ctrl-C, and what must not be left behind by it.
 //
-// The first signal raises a flag that all work polls; should the work not have ended 80 ms later,
+// The first signal raises a flag that all work polls; should the work not have ended 25 ms later,
 // or should the user press Ctrl-C again, the process removes its temporary files and ends at once.
 #pragma once
 
