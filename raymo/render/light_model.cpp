@@ -87,7 +87,7 @@ Surface::Surface(const scene::Material& material)
     opaque_part = 1.0 - transmission;
     transparent = transmission > 0.0;
     body = color * (clamp01(material.diffuse) * opaque_part);
-    const double metal = clamp01(material.metal);
+    metal = clamp01(material.metal);
     tinted = metal > 0.0;
     tint = Colour{1, 1, 1} * (1.0 - metal) + color * metal;
     least_mirror = transparent ? clamp01(material.mirror) : 0.0;

@@ -101,6 +101,7 @@ struct Surface {
         1, 1,
         1};  ///< of what the interface reflects at normal incidence: white, or a metal's colour
     bool tinted = false;
+    double metal = 0.0;
     bool transparent = false;
     double transmission = 0.0;
     double opaque_part = 1.0;  ///< 1 - transmission

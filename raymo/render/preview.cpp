@@ -1,10 +1,11 @@
 // Draft and preview: stepwise refinement [Wijk86 2.4].
 //
-// One ray for each block of 4 x 4 pixels. The draft spreads each over its block. The preview looks
-// at the four samples around a block: where they saw the same smooth surface in about the same
-// light the pixels between are interpolated, and elsewhere they are traced, the largest steps
-// first, as far as an allowance of rays goes. So the cost of a preview is bounded, whatever is in
-// the picture; small details between samples may be missed, as in any preview.
+// The draft has one ray for each block of 4 x 4 pixels, spread over it.
+// The preview starts with a ray for each 8 x 8 pixels. Where the four rays around such a square saw the same smooth
+// surface in about the same light the pixels between are interpolated. Elsewhere it is cut into four blocks of 4 x 4,
+// with a ray each, and blocks whose rays still differ are traced pixel by pixel: at each step the largest differences
+// first, as far as an allowance of rays goes. So the cost of a preview is bounded, whatever is in the picture. Details
+// between the samples may be missed, as in any preview.
 #include <algorithm>
 #include <cmath>
 
@@ -16,8 +17,11 @@ namespace {
 constexpr int kBlock = 4;
 /// Side of a tile in blocks.
 constexpr int kTile = 8;
-/// Rays for refinement, for each block of the picture.
-constexpr double kAllowance = 1.0;
+/// Rays that each step of the refinement may take, for each block of the picture.
+constexpr double kAllowanceOfBlocks = 0.45;
+constexpr double kAllowanceOfPixels = 0.2;
+/// Rays that each step may take however small the picture is.
+constexpr std::size_t kLeastAllowance = 8192;
 
 struct Sample {
     std::array<float, 3> light{};
@@ -35,36 +39,55 @@ struct Lattice {
         : columns(blocks_x + 1),
           rows(blocks_y + 1),
           samples(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows)) {}
+    [[nodiscard]] Sample& at(int i, int j) {
+        return samples[static_cast<std::size_t>(j) * static_cast<std::size_t>(columns) +
+                       static_cast<std::size_t>(i)];
+    }
     [[nodiscard]] const Sample& at(int i, int j) const {
         return samples[static_cast<std::size_t>(j) * static_cast<std::size_t>(columns) +
                        static_cast<std::size_t>(i)];
     }
 };
 
-bool trace_lattice(const Sitting& s, Lattice& lattice, double share) {
-    const auto tiles = tiles_of(lattice.columns, lattice.rows, 2 * kTile);
-    const auto columns = static_cast<std::size_t>(lattice.columns);
+/// Rays for points of the lattice.
+class Tracing {
+public:
+    Tracing(const Sitting& s, Lattice& lattice, RayShader& shader)
+        : s_(&s),
+          columns_(static_cast<std::size_t>(lattice.columns)),
+          packet_(shader, [&lattice](std::size_t index, const Answer& answer) {
+              const Colour c = answer.light;
+              lattice.samples[index] = {
+                  {static_cast<float>(c.x), static_cast<float>(c.y), static_cast<float>(c.z)},
+                  answer.signature};
+          }) {}
+    void trace(int i, int j) {
+        const int x = kBlock * i;
+        const int y = kBlock * j;
+        packet_.add({s_->view.ray(x + 0.5, y + 0.5), pixel_seed(s_->options.seed, x, y), 0, 1},
+                    static_cast<std::size_t>(j) * columns_ + static_cast<std::size_t>(i));
+    }
+    void finish() { packet_.flush(); }
+
+private:
+    const Sitting* s_;
+    std::size_t columns_;
+    Packet packet_;
+};
+
+/// Traces every `stride`-th point of the lattice, as the part 0..share of the work.
+bool trace_lattice(const Sitting& s, Lattice& lattice, int stride, double share) {
+    const auto count = [stride](int n) { return (n + stride - 1) / stride; };
+    const auto tiles = tiles_of(count(lattice.columns), count(lattice.rows), 2 * kTile);
     return s.crew.run(tiles, 0.0, share, [&](const Rect& tile, RayShader& shader) {
-        Packet packet(shader, [&](std::size_t index, const Answer& answer) {
-            const Colour c = answer.light;
-            lattice.samples[index] = {
-                {static_cast<float>(c.x), static_cast<float>(c.y), static_cast<float>(c.z)},
-                answer.signature};
-        });
-        for_each_cell(tile, [&](int i, int j) {
-            const int x = kBlock * i;
-            const int y = kBlock * j;
-            packet.add({s.view.ray(x + 0.5, y + 0.5), pixel_seed(s.options.seed, x, y), 0, 1},
-                       static_cast<std::size_t>(j) * columns + static_cast<std::size_t>(i));
-        });
-        packet.flush();
+        Tracing tracing(s, lattice, shader);
+        for_each_cell(tile, [&](int i, int j) { tracing.trace(stride * i, stride * j); });
+        tracing.finish();
     });
 }
 
-/// How urgently a block wants to be refined: 0 not at all .. 255.
-std::uint8_t urgency(const Lattice& lattice, int i, int j) {
-    const std::array<const Sample*, 4> corner{&lattice.at(i, j), &lattice.at(i + 1, j),
-                                              &lattice.at(i + 1, j + 1), &lattice.at(i, j + 1)};
+/// How urgently a square with these corners, in order around it, wants to be refined: 0 not at all .. 255.
+std::uint8_t urgency(const std::array<const Sample*, 4>& corner) {
     bool any = false;
     bool outline = false;
     float step = 0.0F;
@@ -80,39 +103,82 @@ std::uint8_t urgency(const Lattice& lattice, int i, int j) {
     return static_cast<std::uint8_t>(1.0F + 190.0F * std::min(step, 1.0F) +
                                      (outline ? 64.0F : 0.0F));
 }
+std::uint8_t urgency(const Lattice& lattice, int i, int j, int stride) {
+    return urgency({&lattice.at(i, j), &lattice.at(i + stride, j),
+                    &lattice.at(i + stride, j + stride), &lattice.at(i, j + stride)});
+}
 
-/// Chooses the blocks to be refined within the allowance.
-std::vector<std::uint8_t> choose(const Lattice& lattice, int blocks_x, int blocks_y) {
-    const std::size_t blocks =
-        static_cast<std::size_t>(blocks_x) * static_cast<std::size_t>(blocks_y);
-    std::vector<std::uint8_t> wish(blocks);
+/// Turns urgencies into 1 for the `most` most urgent squares and 0 for the others.
+void choose(std::vector<std::uint8_t>& wish, std::size_t most) {
     std::array<std::size_t, 256> count{};
-    std::size_t next = 0;
-    for (int j = 0; j < blocks_y; ++j) {
-        for (int i = 0; i < blocks_x; ++i) ++count[wish[next++] = urgency(lattice, i, j)];
-    }
-    std::size_t left =
-        static_cast<std::size_t>(kAllowance * static_cast<double>(blocks)) / (kBlock * kBlock - 1);
-    // Small pictures are refined as far as they like.
-    left = std::max<std::size_t>(left, 1024);
+    for (const std::uint8_t w : wish) ++count[w];
     std::size_t least = 256;
-    while (least > 1 && count[least - 1] <= left) left -= count[--least];
-    // Of the blocks that are just as urgent as the first one left out, every so many-th.
+    while (least > 1 && count[least - 1] <= most) most -= count[--least];
+    // Of the squares that are just as urgent as the first one left out, every so many-th.
     const std::size_t tied = least > 1 ? count[least - 1] : 0;
     std::size_t phase = 0;
     for (std::uint8_t& w : wish) {
-        if (w >= least) {
-            w = 1;
-        } else if (w != 0 && w + std::size_t{1} == least) {
-            phase += left;
-            const bool taken = phase >= tied;
-            if (taken) phase -= tied;
-            w = taken ? 1 : 0;
-        } else {
-            w = 0;
+        const bool marginal = w != 0 && w + std::size_t{1} == least;
+        if (marginal) phase += most;
+        const bool taken = w >= least || (marginal && phase >= tied);
+        if (marginal && taken) phase -= tied;
+        w = taken ? 1 : 0;
+    }
+}
+
+std::size_t allowance(double rays_per_block, std::size_t blocks) {
+    return std::max(static_cast<std::size_t>(rays_per_block * static_cast<double>(blocks)),
+                    kLeastAllowance);
+}
+
+/// The squares of 8 x 8 pixels: 2 x 2 blocks.
+struct Squares {
+    int columns;
+    int rows;
+    std::vector<std::uint8_t> cut;  ///< 1: traced block by block
+
+    Squares(int blocks_x, int blocks_y)
+        : columns((blocks_x + 1) / 2),
+          rows((blocks_y + 1) / 2),
+          cut(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows)) {}
+    [[nodiscard]] std::uint8_t& at(int p, int q) {
+        return cut[static_cast<std::size_t>(q) * static_cast<std::size_t>(columns) +
+                   static_cast<std::size_t>(p)];
+    }
+};
+
+/// A lattice point between traced ones: the light of both, the surface of the first.
+Sample between(const Sample& a, const Sample& b) {
+    Sample middle = a;
+    for (std::size_t k = 0; k < 3; ++k) middle.light[k] = 0.5F * (a.light[k] + b.light[k]);
+    return middle;
+}
+
+/// Gives all points of the lattice that are not at corners of squares a value: by rays in squares to be cut, else between
+/// their neighbours. A square owns the points above and left of its middle, so edges on the right and below may be taken
+/// from a neighbour that is not cut.
+bool refine_lattice(const Sitting& s, Lattice& lattice, Squares& squares, double from, double to) {
+    for (int j = 0; j < lattice.rows; j += 2) {
+        for (int i = 1; i + 1 < lattice.columns; i += 2) {
+            lattice.at(i, j) = between(lattice.at(i - 1, j), lattice.at(i + 1, j));
         }
     }
-    return wish;
+    for (int j = 1; j + 1 < lattice.rows; j += 2) {
+        for (int i = 0; i < lattice.columns; ++i) {
+            lattice.at(i, j) = between(lattice.at(i, j - 1), lattice.at(i, j + 1));
+        }
+    }
+    const auto tiles = tiles_of(squares.columns, squares.rows, 2 * kTile);
+    return s.crew.run(tiles, from, to, [&](const Rect& tile, RayShader& shader) {
+        Tracing tracing(s, lattice, shader);
+        for_each_cell(tile, [&](int p, int q) {
+            if (squares.at(p, q) == 0) return;
+            tracing.trace(2 * p + 1, 2 * q);
+            tracing.trace(2 * p, 2 * q + 1);
+            tracing.trace(2 * p + 1, 2 * q + 1);
+        });
+        tracing.finish();
+    });
 }
 
 void interpolate(const Lattice& lattice, int i, int j, image::Film& film) {
@@ -164,7 +230,7 @@ int blocks_in(int pixels) { return (pixels + kBlock - 1) / kBlock; }
 
 bool draw_draft(const Sitting& s) {
     Lattice lattice(blocks_in(s.film.width), blocks_in(s.film.height));
-    if (!trace_lattice(s, lattice, 1.0)) return false;
+    if (!trace_lattice(s, lattice, 1, 1.0)) return false;
     for (int y = 0; y < s.film.height; ++y) {
         for (int x = 0; x < s.film.width; ++x) {
             const std::array<float, 3>& c = lattice.at(x / kBlock, y / kBlock).light;
@@ -177,12 +243,30 @@ bool draw_draft(const Sitting& s) {
 bool draw_preview(const Sitting& s) {
     const int blocks_x = blocks_in(s.film.width);
     const int blocks_y = blocks_in(s.film.height);
-    Lattice lattice(blocks_x, blocks_y);
-    if (!trace_lattice(s, lattice, 0.5)) return false;
-    const std::vector<std::uint8_t> wanted = choose(lattice, blocks_x, blocks_y);
+    const std::size_t blocks =
+        static_cast<std::size_t>(blocks_x) * static_cast<std::size_t>(blocks_y);
+    Squares squares(blocks_x, blocks_y);
+    Lattice lattice(2 * squares.columns, 2 * squares.rows);
+    if (!trace_lattice(s, lattice, 2, 0.3)) return false;
+    for (int q = 0; q < squares.rows; ++q) {
+        for (int p = 0; p < squares.columns; ++p) {
+            squares.at(p, q) = urgency(lattice, 2 * p, 2 * q, 2);
+        }
+    }
+    choose(squares.cut, allowance(kAllowanceOfBlocks, blocks) / 3);
+    if (!refine_lattice(s, lattice, squares, 0.3, 0.6)) return false;
+
+    std::vector<std::uint8_t> wanted(blocks);
+    std::size_t next = 0;
+    for (int j = 0; j < blocks_y; ++j) {
+        for (int i = 0; i < blocks_x; ++i, ++next) {
+            if (squares.at(i / 2, j / 2) != 0) wanted[next] = urgency(lattice, i, j, 1);
+        }
+    }
+    choose(wanted, allowance(kAllowanceOfPixels, blocks) / (kBlock * kBlock - 1));
     const auto w = static_cast<std::size_t>(s.film.width);
     const auto tiles = tiles_of(blocks_x, blocks_y, kTile);
-    return s.crew.run(tiles, 0.5, 1.0, [&](const Rect& tile, RayShader& shader) {
+    return s.crew.run(tiles, 0.6, 1.0, [&](const Rect& tile, RayShader& shader) {
         Packet packet(shader, [&](std::size_t pixel, const Answer& answer) {
             s.film.set(static_cast<int>(pixel % w), static_cast<int>(pixel / w), answer.light);
         });

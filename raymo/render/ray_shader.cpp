@@ -19,9 +19,6 @@ constexpr double kLeastWeight = 0x1p-16;
 /// Light through less than this is no light.
 constexpr double kDark = 0x1p-12;
 
-/// Rays from secondary hits use a part of an area light's samples.
-constexpr int kSecondaryShare = 2;
-
 std::uint32_t face_of(const Hit& hit) {
     std::uint64_t x =
         mix(hit.surface.leaf + (static_cast<std::uint64_t>(hit.surface.instance) << 32U));
@@ -133,7 +130,7 @@ void RayShader::shade(std::size_t count, const RayQuery* queries, const Hit* hit
     }
     for (const Lamp& lamp : stage_->lamps) {
         if (!lamp.is_area()) {
-            light_directly(lamp, count, queries, hits, spots.data());
+            light_directly(lamp, count, queries, hits, arrived.data(), spots.data());
             continue;
         }
         for (std::size_t i = 0; i < count; ++i) {
@@ -180,7 +177,7 @@ RayShader::Spot RayShader::approach(const RayQuery& query, const Hit& hit, Path&
     if (facets > mirror) {
         const double rest = (facets - mirror) * material->opaque_part;
         const Vec3 image = reflected_direction(query.ray.direction, spot.normal);
-        spot.light += stage_->surroundings(image) *
+        spot.light += stage_->surroundings(image, material->metal) *
                       material->reflected(facets, material->specular.value()) * (rest / facets);
     }
     spot.lit = !material->transparent || hit.entering;
@@ -214,21 +211,22 @@ void RayShader::spawn(const Hit& hit, Vec3 direction, const Path& path, Colour w
 }
 
 void RayShader::light_directly(const Lamp& lamp, std::size_t count, const RayQuery* queries,
-                               const Hit* hits, Spot* spots) {
+                               const Hit* hits, const Path* paths, Spot* spots) {
     std::array<RayQuery, kPacket> shadows;
-    std::array<Arrival, kPacket> arrivals;
-    std::array<double, kPacket> nl;
+    std::array<Colour, kPacket> gains;
     std::array<std::size_t, kPacket> which;
     std::array<bool, kPacket> blocked{};
     std::size_t rays = 0;
+    Arrival arrival;
     for (std::size_t i = 0; i < count; ++i) {
-        if (!spots[i].lit || !lamp.arrive(hits[i].point, {0.5, 0.5}, arrivals[rays])) continue;
-        nl[rays] = dot(spots[i].normal, arrivals[rays].direction);
-        if (nl[rays] <= 0.0) continue;
-        shadows[rays] = from_surface(hits[i], arrivals[rays].direction);
-        shadows[rays].t_max = arrivals[rays].distance;
-        which[rays] = i;
-        ++rays;
+        if (!spots[i].lit || !lamp.arrive(hits[i].point, {0.5, 0.5}, arrival)) continue;
+        const double nl = dot(spots[i].normal, arrival.direction);
+        if (nl <= 0.0) continue;
+        gains[rays] = gain(queries[i], arrival, nl, spots[i]);
+        if (!matters(gains[rays], paths[i])) continue;
+        shadows[rays] = from_surface(hits[i], arrival.direction);
+        shadows[rays].t_max = arrival.distance;
+        which[rays++] = i;
     }
     if (rays == 0) return;
     if (lamp.shadows()) {
@@ -238,37 +236,40 @@ void RayShader::light_directly(const Lamp& lamp, std::size_t count, const RayQue
     for (std::size_t r = 0; r < rays; ++r) {
         if (blocked[r]) continue;
         const std::size_t i = which[r];
-        if (!lamp.shadows()) shadows[r].t_max = 0.0;
-        add_light(queries[i], hits[i], arrivals[r], nl[r], 1.0, shadows[r], spots[i]);
+        spots[i].light += lamp.shadows() && stage_->scene->has_transparency()
+                              ? gains[r] * filtered(shadows[r], hits[i].medium_before)
+                              : gains[r];
     }
 }
 
+/// The lamp's light by several samples of its area; the fewer, the less the hit counts in the picture.
 void RayShader::light_softly(const Lamp& lamp, const RayQuery& query, const Hit& hit,
                              const Path& path, Spot& spot) {
     const EyeRay& eye = eyes_[path.lane];
-    const auto share = static_cast<std::uint32_t>(eye.samples) *
-                       static_cast<std::uint32_t>(path.depth > 0 ? kSecondaryShare : 1);
-    const std::uint32_t samples =
-        std::max((static_cast<std::uint32_t>(lamp.samples()) + share - 1) / share, 1U);
+    const double share = std::min(max_norm(path.weight), 1.0) / eye.samples;
+    const auto samples =
+        static_cast<std::uint32_t>(std::max(std::ceil(lamp.samples() * share), 1.0));
+    const double part = 1.0 / samples;
     // Every hit and lamp has its own set of points, of which the pixel's samples take their turns.
     const std::uint64_t set =
         mix(eye.seed + (static_cast<std::uint64_t>(events_[path.lane]++) << 40U) + 1);
 
+    Arrival arrival;
     for (std::uint32_t first = 0; first < samples; first += kPacket) {
         const std::uint32_t last = std::min<std::uint32_t>(first + kPacket, samples);
         std::array<RayQuery, kPacket> shadows;
-        std::array<Arrival, kPacket> arrivals;
-        std::array<double, kPacket> nl;
+        std::array<Colour, kPacket> gains;
         std::array<bool, kPacket> blocked{};
         std::size_t rays = 0;
         for (std::uint32_t k = first; k < last; ++k) {
             const Point2 place = sample_point(eye.sample * samples + k, set);
-            if (!lamp.arrive(hit.point, place, arrivals[rays])) continue;
-            nl[rays] = dot(spot.normal, arrivals[rays].direction);
-            if (nl[rays] <= 0.0) continue;
-            shadows[rays] = from_surface(hit, arrivals[rays].direction);
-            shadows[rays].t_max = arrivals[rays].distance;
-            ++rays;
+            if (!lamp.arrive(hit.point, place, arrival)) continue;
+            const double nl = dot(spot.normal, arrival.direction);
+            if (nl <= 0.0) continue;
+            gains[rays] = gain(query, arrival, nl, spot);
+            if (!matters(gains[rays], path)) continue;
+            shadows[rays] = from_surface(hit, arrival.direction);
+            shadows[rays++].t_max = arrival.distance;
         }
         if (rays == 0) continue;
         if (lamp.shadows()) {
@@ -277,28 +278,23 @@ void RayShader::light_softly(const Lamp& lamp, const RayQuery& query, const Hit&
         }
         for (std::size_t r = 0; r < rays; ++r) {
             if (blocked[r]) continue;
-            if (!lamp.shadows()) shadows[r].t_max = 0.0;
-            add_light(query, hit, arrivals[r], nl[r], 1.0 / samples, shadows[r], spot);
+            spot.light += (lamp.shadows() && stage_->scene->has_transparency()
+                               ? gains[r] * filtered(shadows[r], hit.medium_before)
+                               : gains[r]) *
+                          part;
         }
     }
 }
 
-/// Adds what an unhidden lamp brings. `shadow` is the ray to it (t_max 0: nothing filters the
-/// light).
-void RayShader::add_light(const RayQuery& query, const Hit& hit, const Arrival& arrival, double nl,
-                          double part, const RayQuery& shadow, Spot& spot) {
-    Colour power = arrival.power * (part * nl);
-    if (stage_->scene->has_transparency() && shadow.t_max > 0.0) {
-        power = power * filtered(shadow, hit.medium_before);
-    }
+/// Radiance towards the viewer for a lamp that nothing hides.
+Colour RayShader::gain(const RayQuery& query, const Arrival& arrival, double nl,
+                       const Spot& spot) const {
+    const Colour power = arrival.power * nl;
     const Surface& material = *spot.surface;
-    if (material.specular.none()) {
-        spot.light += power * spot.body;
-        return;
-    }
+    if (material.specular.none()) return power * spot.body;
     const double vl = -dot(query.ray.direction, arrival.direction);
-    spot.light +=
-        power * (spot.body * (1.0 - material.specular(nl)) + facet_term(material, spot.nv, nl, vl));
+    return power *
+           (spot.body * (1.0 - material.specular(nl)) + facet_term(material, spot.nv, nl, vl));
 }
 
 /// What transparent parts on the way to a lamp leave of its light. It goes straight on, as bending

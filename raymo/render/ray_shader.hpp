@@ -40,9 +40,11 @@ struct Stage {
         const double up = 0.5 + 0.5 * d.z;
         return background.bottom * (1.0 - up) + background.top * up;
     }
-    /// What facets that are not traced reflect from direction `d`: the backdrop, or other parts. Half
-    /// of it is taken from the backdrop, and half is ambient light.
-    [[nodiscard]] Colour surroundings(Vec3 d) const { return (behind(d) + ambient) * 0.5; }
+    /// What facets that are not traced reflect from direction `d`. Mostly that is other parts, in ambient light; but a
+    /// metal shows little else than what is around it, so half of that is taken from the backdrop.
+    [[nodiscard]] Colour surroundings(Vec3 d, double metal) const {
+        return ambient + (behind(d) - ambient) * (0.5 * metal);
+    }
 };
 
 /// A ray from the eye. Samples of one pixel share its `seed`; together they use each area light's
@@ -105,11 +107,15 @@ private:
                const Path* paths);
     [[nodiscard]] Spot approach(const trace::RayQuery& query, const trace::Hit& hit, Path& path);
     void light_directly(const Lamp& lamp, std::size_t count, const trace::RayQuery* queries,
-                        const trace::Hit* hits, Spot* spots);
+                        const trace::Hit* hits, const Path* paths, Spot* spots);
     void light_softly(const Lamp& lamp, const trace::RayQuery& query, const trace::Hit& hit,
                       const Path& path, Spot& spot);
-    void add_light(const trace::RayQuery& query, const trace::Hit& hit, const Arrival& arrival,
-                   double nl, double part, const trace::RayQuery& shadow, Spot& spot);
+    [[nodiscard]] Colour gain(const trace::RayQuery& query, const Arrival& arrival, double nl,
+                              const Spot& spot) const;
+    [[nodiscard]] bool matters(Colour gain, const Path& path) const {
+        // Less than this can not be seen even in sums over a few lamps.
+        return max_norm(gain * path.weight) > 0.125 * stage_->min_weight;
+    }
     void spawn(const trace::Hit& hit, Vec3 direction, const Path& path, Colour weight);
     [[nodiscard]] Colour filtered(trace::RayQuery shadow, csg::MaterialId at);
     [[nodiscard]] const Surface& surface(csg::MaterialId id);

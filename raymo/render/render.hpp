@@ -14,7 +14,8 @@ namespace raymo::render {
 
 enum class Quality : std::uint8_t {
     draft,    ///< one ray for each 4 x 4 block of pixels; no reflection
-    preview,  ///< one ray for each 4 x 4 block, refined where neighbours differ; no anti-aliasing
+    preview,  ///< one ray for each 8 x 8 block, refined in steps where neighbours differ, within a bounded number of
+              ///< rays; soft lights from their middles; no anti-aliasing
     final,    ///< every pixel, edges anti-aliased
 };
 
