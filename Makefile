@@ -9,8 +9,8 @@ FUZZ_SECONDS ?= 1200
 export CTEST_PARALLEL_LEVEL ?= $(shell nproc)
 
 raymo := build/release/apps/raymo/raymo
-demo_model := examples/goblet.raymo
-demo_options := --size 1200x600
+demo_model := examples/flange.raymo
+demo_options := --size 1000x500
 demo_picture := out/demo.png
 
 help: ## this list

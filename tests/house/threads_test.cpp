@@ -15,9 +15,8 @@ namespace raymo {
 namespace {
 
 constexpr const char* kModel = R"(
-    let plate = block((60, 60, 8), center: true)
-    let holes = union([for i in 0..<4: for j in 0..<4: cylinder(4, 20, center: true).move(15 * i - 22, 15 * j - 22)])
-    part plate = (plate - holes).paint("steelblue")
+    let holes = grid(cylinder(4, 20, center: true), 4, 4, 1, 15).move(-22, -22)
+    part plate = (block(60, 60, 8, center: true) - holes).paint("steelblue")
     part ball = (sphere(14) - block(14)).move(z: 20).paint(material(color: "white", transmission: 0.9, ior: 1.5))
     part ring = torus(24, 3).move(z: 12).paint(material(color: "gold", mirror: 0.5))
     light(position: (80, -60, 120))
