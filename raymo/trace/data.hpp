@@ -35,6 +35,7 @@ struct Frame {
     Mat3 to_local;
     Vec3 row_length;      ///< lengths of the rows of to_local
     Vec3 error;           ///< of to_local itself, over the leaf, in the leaf's frame
+    bool diagonal;        ///< to_local has nothing beside its diagonal
     std::uint32_t type;   ///< kernel type, or kInstanceType
     std::uint32_t index;  ///< which kernel of that type, or which compiled solid
 };

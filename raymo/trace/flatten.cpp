@@ -195,12 +195,15 @@ Frame frame_of(const Affine& map, std::uint32_t type, std::uint32_t index) {
     frame.to_local = inverse(map.linear);
     frame.type = type;
     frame.index = index;
+    const std::array<Vec3, 3>& row = frame.to_local.row;
+    frame.diagonal = row[0].y == 0.0 && row[0].z == 0.0 && row[1].x == 0.0 && row[1].z == 0.0 &&
+                     row[2].x == 0.0 && row[2].y == 0.0;
     // Rounding of the inverse, seen from the leaf: |to_local| |map| is 1 for orthogonal axes and
     // grows with skew.
     const Mat3 spread = abs(frame.to_local) * abs(map.linear);
     for (int i = 0; i < 3; ++i) {
-        const Vec3 row = spread.row[static_cast<std::size_t>(i)];
-        frame.error[i] = 8.0 * kUnitRoundoff * (row.x + row.y + row.z);
+        const Vec3 sums = spread.row[static_cast<std::size_t>(i)];
+        frame.error[i] = 8.0 * kUnitRoundoff * (sums.x + sums.y + sums.z);
     }
     return frame;
 }

@@ -20,12 +20,22 @@ inline Local<R> localise(const Frame& frame, const Leaf& leaf, R ox, R oy, R oz,
     const R rx = ox - R(leaf.centre.x);
     const R ry = oy - R(leaf.centre.y);
     const R rz = oz - R(leaf.centre.z);
-    const R px = row(0, rx, ry, rz);
-    const R py = row(1, rx, ry, rz);
-    const R pz = row(2, rx, ry, rz);
-    ray.dx = row(0, dx, dy, dz);
-    ray.dy = row(1, dx, dy, dz);
-    ray.dz = row(2, dx, dy, dz);
+    R px, py, pz;
+    if (frame.diagonal) {
+        px = R(frame.to_local.row[0].x) * rx;
+        py = R(frame.to_local.row[1].y) * ry;
+        pz = R(frame.to_local.row[2].z) * rz;
+        ray.dx = R(frame.to_local.row[0].x) * dx;
+        ray.dy = R(frame.to_local.row[1].y) * dy;
+        ray.dz = R(frame.to_local.row[2].z) * dz;
+    } else {
+        px = row(0, rx, ry, rz);
+        py = row(1, rx, ry, rz);
+        pz = row(2, rx, ry, rz);
+        ray.dx = row(0, dx, dy, dz);
+        ray.dy = row(1, dx, dy, dz);
+        ray.dz = row(2, dx, dy, dz);
+    }
     ray.dd = ray.dx * ray.dx + ray.dy * ray.dy + ray.dz * ray.dz;
     out.shift = (R(0.0) - (px * ray.dx + py * ray.dy + pz * ray.dz)) / ray.dd;
     ray.ox = px + out.shift * ray.dx;

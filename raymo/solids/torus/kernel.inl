@@ -46,7 +46,7 @@ inline TorusValue<R> torus_value(const TorusLine<R>& line, R s) {
     const R q = lane_max(lane_sqrt(x * x + y * y), R(0x1p-300));
     const R p = q - R(line.a);
     const R w = p * p + z * z;
-    const R side = p * ((x * line.dx + y * line.dy) / q) + z * line.dz;
+    const R side = p * (x * line.dx + y * line.dy) / q + z * line.dz;
     TorusValue<R> v;
     v.g = w - R(line.b * line.b);
     v.slope = side + side;
@@ -61,9 +61,10 @@ inline void torus_slope(const TorusLine<R>& line, R across, R distance, R s, R& 
     const R x = line.ox + s * line.dx;
     const R y = line.oy + s * line.dy;
     const R q = lane_max(lane_sqrt(x * x + y * y), R(0x1p-300));
-    const R flatness = distance / q;
-    h = s - R(line.a) * ((x * line.dx + y * line.dy) / q);
-    dh = R(1.0) - R(line.a) * across * flatness * flatness / q;
+    const R inverse = R(1.0) / q;
+    const R flatness = distance * inverse;
+    h = s - R(line.a) * (x * line.dx + y * line.dy) * inverse;
+    dh = R(1.0) - R(line.a) * across * flatness * flatness * inverse;
 }
 
 // The only zero of sign * G in [lo, hi], where sign * G is positive at lo and negative at hi.
