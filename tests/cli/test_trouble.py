@@ -112,6 +112,7 @@ class Trouble(CommandLine):
         self.assertIn("time limit of 0.5 s", done.stderr)
         self.assertEqual(self.files(), ["cup.raymo", "slow.raymo"])
 
+    @unittest.skipIf(os.environ.get("RAYMO_SANITIZE"), "a sanitizer's own memory can not be limited")
     def test_memory_runs_out_with_a_message(self):
         greedy = "var l = [1]\nwhile true { l = concat(l, l) }\n"
         self.assertIn("memory", self.refused(greedy, 1, "--memory-limit", "0.2"))
