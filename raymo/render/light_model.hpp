@@ -13,7 +13,7 @@
 // of a dielectric with the material's index of refraction do. A metal's reflectance starts from its
 // colour instead of white.
 // What the interface lets pass, going in and again coming out, meets the body: diffuse reflection,
-// or transmission. Why: docs/decisions/light-model.md.
+// or transmission. Why: docs/decisions/0003-light-model.md.
 #pragma once
 
 #include <cstdint>

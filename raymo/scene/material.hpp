@@ -21,8 +21,8 @@ enum class Facets : std::uint8_t { trowbridge_reitz, gaussian, phong };
 struct Material {
     Colour color{0.8, 0.8, 0.8};      ///< of diffuse reflection
     double diffuse = 0.9;             ///< part of light reflected diffusely
-    double specular = 0.25;            ///< weight of the facet highlight
-    double roughness = 0.35;           ///< 0 sharp .. 1 dull; width of the facet distribution
+    double specular = 0.05;           ///< part that facets reflect at normal incidence: the highlight
+    double roughness = 0.25;          ///< 0 sharp .. 1 dull: half-power angle of the facets in 45 degrees
     double metal = 0.0;               ///< 1: highlights and mirror images take the surface's colour
     double mirror = 0.0;              ///< weight of mirror reflection at normal incidence
     double transmission = 0.0;        ///< part of light that passes (refraction); > 0 makes the material transparent
