@@ -18,7 +18,7 @@ struct Light {
     LightKind kind = LightKind::point;
     Vec3 position;
     Vec3 direction{0, 0, -1};  ///< the way the light goes; unit length
-    double power = 1.0;        ///< radiance reflected by a white diffuse surface that faces the light
+    double power = 1.0;  ///< radiance reflected by a white diffuse surface that faces the light
     Colour color{1, 1, 1};
     double cone_angle = 30.0;  ///< spot: half angle of full light [degrees]
     double blur = 5.0;         ///< spot: further degrees over which it fades to nothing

@@ -34,10 +34,10 @@ struct Background {
 
 struct Scene {
     std::vector<Part> parts;
-    std::vector<Material> materials;  ///< csg::MaterialId is an index into this
+    std::vector<Material> materials;   ///< csg::MaterialId is an index into this
     std::vector<NamedCamera> cameras;  ///< the first is the default; empty: fitted to the model
-    std::vector<Light> lights;        ///< empty: the default rig
-    std::optional<Colour> ambient;    ///< empty: the default of the rig
+    std::vector<Light> lights;         ///< empty: the default rig
+    std::optional<Colour> ambient;     ///< empty: the default of the rig
     std::optional<Background> background;
 };
 
