@@ -10,7 +10,7 @@ export CTEST_PARALLEL_LEVEL ?= $(shell nproc)
 
 raymo := build/release/apps/raymo/raymo
 demo_model := examples/flange.raymo
-demo_options := --size 1000x500
+demo_options := --size 900x540
 demo_picture := out/demo.png
 
 help: ## this list
