@@ -68,11 +68,12 @@ format: ## format the sources
 examples: release ## draw the pictures of the examples
 	@scripts/draw-examples $(raymo)
 
-docs: examples ## rewrite the pages and pictures that follow from the sources
+docs: examples demo ## rewrite the pages and pictures that follow from the sources
 	@scripts/install-dependencies build test
 	@[ -e build/dev/build.ninja ] || cmake --preset dev
 	@cmake --build --preset dev --target manual_solids
 	@build/dev/tests/house/manual_solids > docs/manual/solids.md
+	@cp $(demo_picture) docs/demo.png
 
 clean: ## remove everything that was built
 	rm -rf build out
