@@ -55,8 +55,7 @@ void mapped_rays(const std::string& name, double far, std::uint64_t rays, Random
         }
         const double size = max_norm(map.offset) + 40.0 * scale;
         for (std::uint64_t i = 0; i < kRaysEach; ++i) {
-            AimedRay aimed = any_ray(random, 6.0, 0.5);
-            const double rounding = aimed.rounding == kLoose ? kLoose : kTight;
+            const AimedRay aimed = any_ray(random, 6.0, 0.5);
             const Ray ray{map(aimed.ray.origin), map.linear * aimed.ray.direction};
             judge_ray(traced, *traced.model(), ray, size, aimed.rounding, random, tally);
         }

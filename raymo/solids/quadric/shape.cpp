@@ -13,9 +13,9 @@ constexpr double kInf = std::numeric_limits<double>::infinity();
 
 /// A principal value below this part of the largest one is taken as 0: 64 roundings.
 constexpr double kNoValue = 128.0 * kUnitRoundoff;
-/// The canonical origin is not moved along axes with a value below this part of the largest one: the centre would be
-/// farther away than 2^10 times the other axes' sizes, and rounding errors with it.
-constexpr double kWeakValue = 0x1p-20;
+/// Along axes with a value below this part of the largest one the solid is long, and its centre may be far from what the
+/// user looks at; see QuadricShape::origin.
+constexpr double kWeakValue = 0x1p-8;
 
 /// A sum of products with twice the working precision [OgitaRumpOishi05].
 class LongSum {
@@ -151,26 +151,29 @@ QuadricShape analyse(const QuadraticForm& form) {
 }
 
 Vec3 QuadricShape::origin(const QuadraticForm& form) const {
-    const bool closed = value[0] > 0.0 && value[1] > 0.0 && value[2] > 0.0;
     const double largest =
         std::max({std::fabs(value[0]), std::fabs(value[1]), std::fabs(value[2])});
     Vec3 place;
+    std::array<bool, 3> placed{};
     for (std::size_t i = 0; i < 3; ++i) {
-        if (value[i] == 0.0 || (!closed && std::fabs(value[i]) < kWeakValue * largest)) continue;
-        place -= axis[i] * (dot(axis[i], form.b) / value[i]);
+        if (value[i] == 0.0) continue;
+        const double offset = -dot(axis[i], form.b) / value[i];
+        // Along a long axis the centre is no better than the user's own origin when that is no farther from the centre
+        // than the surface is, offset^2 value = level.
+        placed[i] = std::fabs(value[i]) >= kWeakValue * largest ||
+                    offset * offset * std::fabs(value[i]) > 16.0 * std::fabs(level);
+        if (placed[i]) place += axis[i] * offset;
     }
-    if (closed) return place;
     // Along the axes that are left, on to the surface, if that is near.
     Vec3 rest = form.half_gradient(place);
     for (std::size_t i = 0; i < 3; ++i) {
-        if (value[i] == 0.0 || std::fabs(value[i]) < kWeakValue * largest) continue;
-        rest -= axis[i] * dot(axis[i], rest);
+        if (placed[i]) rest -= axis[i] * dot(axis[i], rest);
     }
     const double steepness = dot(rest, rest);
     if (!(steepness > 0.0)) return place;
     const Vec3 step = rest * (-0.5 * form(place) / steepness);
-    const double near = 1024.0 * (norm(place) + size());
-    return largest == 0.0 || norm(step) <= near ? place + step : place;
+    const bool near = norm(step) <= 16.0 * (norm(place) + size());
+    return near || largest == 0.0 || has_slope() ? place + step : place;
 }
 
 bool QuadricShape::has_negative_value() const {

@@ -1,16 +1,16 @@
 // Spans of the unit sphere, for one ray or several (see math/lanes.hpp). Included once per instruction set.
 //
 // With o the point of the line nearest to the centre, o.d = 0 and  |o + s d|^2 = 1  gives  s = +-h,  h^2 = (1 - o.o)/d.d.
-// An error e of the line moves o.o by at most E = 2|o|.e + e.e, hence h^2 by E/d.d, and h by E/(d.d h) while o.o < 1 - E;
-// otherwise | sqrt(a) - sqrt(b) | <= sqrt|a - b| leaves nothing that is certainly inside, and so no span.
-// What is left of o.d after rounding is covered by e.
+// Where the line is within the solid, |x| <= 1, an error e of it, in any direction, changes |x|^2 by at most 2|e| + e.e;
+// what is left of o.d after rounding is at most |e||d| and changes it by 2|e| again. So the ends are those of h^2 to
+// within E/d.d with E = 4|e| + e.e + 16 u, |e| <= ex + ey + ez, and h moves by at most E/(d.d h) while o.o < 1 - E;
+// otherwise nothing is certainly inside, and there is no span.
+// (The part of e along the line counts: it moves the ends of a line through the centre, too.)
 template <class R, class M>
 inline void sphere_spans(const LocalRay<R>& ray, LaneSpans<R, M, 1>& out) {
     const R oo = ray.ox * ray.ox + ray.oy * ray.oy + ray.oz * ray.oz;
-    const R ee = ray.ex * ray.ex + ray.ey * ray.ey + ray.ez * ray.ez;
-    const R shift =
-        lane_abs(ray.ox) * ray.ex + lane_abs(ray.oy) * ray.ey + lane_abs(ray.oz) * ray.ez;
-    const R slack = shift + shift + ee + R(16.0 * kUnitRoundoff);
+    const R e = ray.ex + ray.ey + ray.ez;
+    const R slack = R(4.0) * e + e * e + R(16.0 * kUnitRoundoff);
     const R room = R(1.0) - oo;  // h^2 d.d
     out.valid[0] = room > slack;
     out.degenerate = R(0.0) > R(1.0);

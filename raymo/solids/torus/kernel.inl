@@ -21,7 +21,7 @@
 // point (the line's, and the roundings of o + s d, of q, a and b) changes G by
 //     E = 2 sqrt(w) e' + e'^2 <= (w / b + b) e' + e'^2,
 // besides 4 u (w + b^2) of G's own. Signs count only where |G| > E. An end is certain to within r
-// when G > E at r on its outer side and G < -E at r on its inner side; r starts at 2 E / |G'|, or
+// when G > E at r on its outer side and G < -E at r on its inner side; r starts at 3 E / |G'|, or
 // sqrt(E) where that is less, and grows until both hold. It does so in the end, since the extrema
 // to both sides were found to be certain. This covers contact of any order.
 template <class R>
@@ -67,37 +67,45 @@ inline void torus_slope(const TorusLine<R>& line, R across, R distance, R s, R& 
     dh = R(1.0) - R(line.a) * across * flatness * flatness * inverse;
 }
 
-// The only zero of sign * G in [lo, hi], where sign * G is positive at lo and negative at hi.
+template <class R>
+struct TorusEnd {
+    R s;
+    R reach;  // the true end is within this
+};
+
+// The only zero of G between `outer`, where G > E, and `inner`, where G < -E.
 template <class R, class M>
-inline R torus_crossing(const TorusLine<R>& line, R sign, R lo, R hi, R guess, M active) {
-    R s = lane_select(lane_and(guess > lo, guess < hi), guess, R(0.5) * (lo + hi));
+inline TorusEnd<R> torus_end(const TorusLine<R>& line, R outer, R inner, R guess, M active) {
+    const R half = R(0.5);
+    const M all = active;
+    R lo = lane_min(outer, inner);
+    R hi = lane_max(outer, inner);
+    const M rising = outer > inner;  // G rises towards larger s
+    R s = lane_select(lane_and(guess > lo, guess < hi), guess, half * (lo + hi));
+    R reach = R(2.0);
     for (int i = 0; i < 80; ++i) {
         const TorusValue<R> v = torus_value(line, s);
-        const M before = v.g * sign > R(0.0);
-        lo = lane_select(lane_and(active, before), s, lo);
-        hi = lane_select(lane_and(active, lane_not(before)), s, hi);
+        const M low_side =
+            lane_or(lane_and(rising, v.g < R(0.0)), lane_and(lane_not(rising), v.g > R(0.0)));
+        lo = lane_select(lane_and(active, low_side), s, lo);
+        hi = lane_select(lane_and(active, lane_not(low_side)), s, hi);
         const R newton = s - v.g / v.slope;
-        const R next = lane_select(lane_and(newton > lo, newton < hi), newton, R(0.5) * (lo + hi));
-        const M moving = lane_abs(next - s) > R(0x1p-48);
+        const R next = lane_select(lane_and(newton > lo, newton < hi), newton, half * (lo + hi));
+        // Newton's steps shrink quadratically: after one below 2^-42 there is nothing left to gain.
+        const M moving = lane_abs(next - s) > R(0x1p-42);
+        const R start = R(3.0) * v.error / lane_abs(v.slope) + R(4.0 * kUnitRoundoff);
+        const R contact = lane_sqrt(v.error);  // the right order where the line touches
+        reach = lane_select(active, lane_select(start < contact, start, contact), reach);
         s = lane_select(active, next, s);
         active = lane_and(active, moving);
         if (!lane_any(active)) break;
     }
-    return s;
-}
-
-// How far from the crossing s the true one can be. `outer` and `inner` are places beyond it where G
-// is certainly positive and negative.
-template <class R, class M>
-inline R torus_certainty(const TorusLine<R>& line, R s, R outer, R inner, M active) {
-    const TorusValue<R> at = torus_value(line, s);
-    const R start = R(2.0) * at.error / lane_abs(at.slope) + R(4.0 * kUnitRoundoff);
-    const R contact = lane_sqrt(at.error);  // the right order where the line touches
-    R reach = lane_select(start < contact, start, contact);
-    const R outward = lane_select(outer > s, R(1.0), R(-1.0));
+    // Certain when the sign is on both sides; see the head of this file.
+    const R outward = lane_select(rising, R(1.0), R(-1.0));
     const R out_room = lane_abs(outer - s);
     const R in_room = lane_abs(inner - s);
-    for (int i = 0; i < 20; ++i) {
+    active = all;
+    for (int i = 0; i < 32; ++i) {
         const TorusValue<R> out = torus_value(line, s + outward * lane_min(reach, out_room));
         const TorusValue<R> in = torus_value(line, s - outward * lane_min(reach, in_room));
         const M certain = lane_and(out.g > out.error, in.g < R(0.0) - in.error);
@@ -105,7 +113,7 @@ inline R torus_certainty(const TorusLine<R>& line, R s, R outer, R inner, M acti
         if (!lane_any(active)) break;
         reach = lane_select(active, reach * R(4.0), reach);
     }
-    return reach;
+    return {s, reach};
 }
 
 template <class R, class M>
@@ -163,7 +171,7 @@ inline void torus_spans(double a, double b, const LocalRay<R>& ray, LaneSpans<R,
         R h, dh;
         torus_slope(line, across, distance, m, h, dh);
         const R step = h / dh;
-        const M moving = lane_abs(step) > R(0x1p-30);
+        const M moving = lane_abs(step) > R(0x1p-20);
         m = lane_select(active, lane_min(lane_max(m - step, m), zero), m);
         active = lane_and(active, moving);
         if (!lane_any(active)) break;
@@ -180,7 +188,7 @@ inline void torus_spans(double a, double b, const LocalRay<R>& ray, LaneSpans<R,
             const M lost = lane_not(lane_and(dh > zero, n > centre));
             second = lane_and(second, lane_not(lane_and(active, lost)));
             active = lane_and(active, lane_not(lost));
-            const M moving = lane_abs(step) > R(0x1p-30);
+            const M moving = lane_abs(step) > R(0x1p-20);
             n = lane_select(active, lane_max(n - step, centre), n);
             active = lane_and(active, moving);
             if (!lane_any(active)) break;
@@ -194,29 +202,34 @@ inline void torus_spans(double a, double b, const LocalRay<R>& ray, LaneSpans<R,
     const M met = lane_or(has_a, has_b);
     if (!lane_any(met)) return;
 
-    // x: between c and n, h falls from positive to negative.
+    // Between m and n there is a gap when G(x) > E. Mostly c, between m and x, lies in it already;
+    // else x is found, where h falls from positive to negative between c and n.
+    R x = centre;
     M gap = lane_and(met, second);
-    R x = n;
     if (lane_any(gap)) {
-        R lo = centre;
-        R hi = n;
-        x = R(0.5) * (lo + hi);
-        active = gap;
-        for (int i = 0; i < 60; ++i) {
-            R h, dh;
-            torus_slope(line, across, distance, x, h, dh);
-            const M before = h > zero;
-            lo = lane_select(lane_and(active, before), x, lo);
-            hi = lane_select(lane_and(active, lane_not(before)), x, hi);
-            const R newton = x - h / dh;
-            const R next =
-                lane_select(lane_and(newton > lo, newton < hi), newton, R(0.5) * (lo + hi));
-            const M moving = lane_abs(next - x) > R(0x1p-34);
-            x = lane_select(active, next, x);
-            active = lane_and(active, moving);
-            if (!lane_any(active)) break;
+        TorusValue<R> at_x = torus_value(line, lane_select(second, x, zero));
+        const M search = lane_and(gap, lane_not(at_x.g > at_x.error));
+        if (lane_any(search)) {
+            R lo = centre;
+            R hi = n;
+            x = lane_select(search, R(0.5) * (lo + hi), x);
+            active = search;
+            for (int i = 0; i < 60; ++i) {
+                R h, dh;
+                torus_slope(line, across, distance, x, h, dh);
+                const M rises = h > zero;
+                lo = lane_select(lane_and(active, rises), x, lo);
+                hi = lane_select(lane_and(active, lane_not(rises)), x, hi);
+                const R newton = x - h / dh;
+                const R next =
+                    lane_select(lane_and(newton > lo, newton < hi), newton, R(0.5) * (lo + hi));
+                const M moving = lane_abs(next - x) > R(0x1p-20);
+                x = lane_select(active, next, x);
+                active = lane_and(active, moving);
+                if (!lane_any(active)) break;
+            }
+            at_x = torus_value(line, lane_select(second, x, zero));
         }
-        const TorusValue<R> at_x = torus_value(line, x);
         gap = lane_and(gap, at_x.g > at_x.error);
     }
 
@@ -238,42 +251,30 @@ inline void torus_spans(double a, double b, const LocalRay<R>& ray, LaneSpans<R,
     const R last_inner = lane_select(has_b, n, m);
     const R last_outer = lane_select(lane_or(has_b, lane_not(gap)), far, x);
     const R last_guess = lane_select(has_b, n + half_n, m + half_m);
-    const R enter = torus_crossing(line, R(1.0), first_outer, first_inner, first_guess, met);
-    const R exit = torus_crossing(line, R(-1.0), last_inner, last_outer, last_guess, met);
-    const R enter_error = torus_certainty(line, enter, first_outer, first_inner, met);
-    const R exit_error = torus_certainty(line, exit, last_outer, last_inner, met);
-    R inner_exit = exit, inner_exit_error = exit_error;
-    R inner_enter = enter, inner_enter_error = enter_error;
+    const TorusEnd<R> enter = torus_end(line, first_outer, first_inner, first_guess, met);
+    const TorusEnd<R> exit = torus_end(line, last_outer, last_inner, last_guess, met);
+    TorusEnd<R> inner_exit = exit;
+    TorusEnd<R> inner_enter = enter;
     if (lane_any(two)) {
-        const R e0 = torus_crossing(line, R(-1.0), m, x, m + half_m, two);
-        const R e1 = torus_crossing(line, R(1.0), x, n, n - half_n, two);
-        const R r0 = torus_certainty(line, e0, x, m, two);
-        const R r1 = torus_certainty(line, e1, x, n, two);
-        inner_exit = lane_select(two, e0, exit);
-        inner_exit_error = lane_select(two, r0, exit_error);
-        inner_enter = lane_select(two, e1, enter);
-        inner_enter_error = lane_select(two, r1, enter_error);
+        const TorusEnd<R> e0 = torus_end(line, x, m, m + half_m, two);
+        const TorusEnd<R> e1 = torus_end(line, x, n, n - half_n, two);
+        inner_exit.s = lane_select(two, e0.s, exit.s);
+        inner_exit.reach = lane_select(two, e0.reach, exit.reach);
+        inner_enter.s = lane_select(two, e1.s, enter.s);
+        inner_enter.reach = lane_select(two, e1.reach, enter.reach);
     }
 
     // Back to the ray's own sense and parameter.
     const M reversed = turn < zero;
     const R scale = turn * unit;
-    const R low0 = lane_select(reversed, exit, enter),
-            high0 = lane_select(reversed, inner_enter, inner_exit);
-    const R low1 = lane_select(reversed, inner_exit, inner_enter),
-            high1 = lane_select(reversed, enter, exit);
-    const R low0_error = lane_select(reversed, exit_error, enter_error);
-    const R high0_error = lane_select(reversed, inner_enter_error, inner_exit_error);
-    const R low1_error = lane_select(reversed, inner_exit_error, inner_enter_error);
-    const R high1_error = lane_select(reversed, enter_error, exit_error);
-    out.enter[0] = low0 * scale;
-    out.exit[0] = high0 * scale;
-    out.enter_error[0] = low0_error * unit;
-    out.exit_error[0] = high0_error * unit;
-    out.enter[1] = low1 * scale;
-    out.exit[1] = high1 * scale;
-    out.enter_error[1] = low1_error * unit;
-    out.exit_error[1] = high1_error * unit;
+    out.enter[0] = scale * lane_select(reversed, exit.s, enter.s);
+    out.exit[0] = scale * lane_select(reversed, inner_enter.s, inner_exit.s);
+    out.enter[1] = scale * lane_select(reversed, inner_exit.s, inner_enter.s);
+    out.exit[1] = scale * lane_select(reversed, enter.s, exit.s);
+    out.enter_error[0] = unit * lane_select(reversed, exit.reach, enter.reach);
+    out.exit_error[0] = unit * lane_select(reversed, inner_enter.reach, inner_exit.reach);
+    out.enter_error[1] = unit * lane_select(reversed, inner_exit.reach, inner_enter.reach);
+    out.exit_error[1] = unit * lane_select(reversed, enter.reach, exit.reach);
     out.valid[0] =
         lane_and(met, out.exit[0] - out.enter[0] > out.enter_error[0] + out.exit_error[0]);
     out.valid[1] =
