@@ -101,23 +101,50 @@ void RayShader::answer(std::span<const EyeRay> rays, Answer* answers) {
             queries[count] = queries[i];
             hits[count] = hits[i];
         }
-        paths[count] = {{1, 1, 1}, 0, i};
+        paths[count] = {{1, 1, 1}, 0, i, events_[i]++};
         ++count;
     }
     if (count == 0) return;
     shade(count, queries.data(), hits.data(), paths.data());
+    for (std::size_t k = 0; k < count; ++k) answers[paths[k].lane].light += brought_[k];
 
+    // Wave by wave: all rays that are one reflection or refraction further, in packets.
     while (!pending_.empty()) {
-        const Pending next = pending_.back();
-        pending_.pop_back();
-        ++counts_.secondary;
-        if (tracer_.first_hit(next.query, hits[0])) {
-            shade(1, &next.query, hits.data(), &next.path);
-        } else {
-            answers[next.path.lane].light +=
-                next.path.weight * stage_->behind(next.query.ray.direction);
+        wave_.swap(pending_);
+        pending_.clear();
+        for (std::size_t first = 0; first < wave_.size(); first += kPacket) {
+            follow({wave_.data() + first, std::min(kPacket, wave_.size() - first)});
         }
     }
+}
+
+void RayShader::follow(std::span<const Pending> rays) {
+    std::array<RayQuery, kPacket> queries;
+    std::array<Hit, kPacket> hits;
+    std::array<bool, kPacket> found{};
+    std::array<Path, kPacket> paths;
+    for (std::size_t i = 0; i < rays.size(); ++i) queries[i] = rays[i].query;
+    counts_.secondary += rays.size();
+    tracer_.first_hits({queries.data(), rays.size()}, hits.data(), found.data());
+
+    std::array<Colour, kPacket> brought{};
+    std::array<std::size_t, kPacket> which{};
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        if (!found[i]) {
+            brought[i] = rays[i].path.weight * stage_->behind(rays[i].query.ray.direction);
+            continue;
+        }
+        queries[count] = queries[i];
+        hits[count] = hits[i];
+        paths[count] = rays[i].path;
+        paths[count].event = events_[rays[i].path.lane]++;
+        which[count++] = i;
+    }
+    if (count > 0) shade(count, queries.data(), hits.data(), paths.data());
+    for (std::size_t k = 0; k < count; ++k) brought[which[k]] = brought_[k];
+    // In the order of the rays, so that a sum does not depend on what else is in the packet.
+    for (std::size_t i = 0; i < rays.size(); ++i) answers_[rays[i].path.lane].light += brought[i];
 }
 
 void RayShader::shade(std::size_t count, const RayQuery* queries, const Hit* hits,
@@ -126,7 +153,8 @@ void RayShader::shade(std::size_t count, const RayQuery* queries, const Hit* hit
     std::array<Path, kPacket> arrived;
     for (std::size_t i = 0; i < count; ++i) {
         arrived[i] = paths[i];
-        spots[i] = approach(queries[i], hits[i], arrived[i]);
+        brought_[i] = {};
+        spots[i] = approach(queries[i], hits[i], arrived[i], brought_[i]);
     }
     for (const Lamp& lamp : stage_->lamps) {
         if (!lamp.is_area()) {
@@ -138,13 +166,14 @@ void RayShader::shade(std::size_t count, const RayQuery* queries, const Hit* hit
         }
     }
     for (std::size_t i = 0; i < count; ++i) {
-        answers_[arrived[i].lane].light += arrived[i].weight * spots[i].light;
+        brought_[i] += arrived[i].weight * spots[i].light;
     }
 }
 
 /// All of a hit but the lamps: absorption on the way, ambient light, and the rays that go on from
 /// here.
-RayShader::Spot RayShader::approach(const RayQuery& query, const Hit& hit, Path& path) {
+RayShader::Spot RayShader::approach(const RayQuery& query, const Hit& hit, Path& path,
+                                    Colour& brought) {
     const Surface* material = &surface(hit.material);
     double index = 1.0;
     if (stage_->scene->has_transparency()) {
@@ -188,26 +217,27 @@ RayShader::Spot RayShader::approach(const RayQuery& query, const Hit& hit, Path&
         const Colour part = mirror >= 1.0
                                 ? (material->transparent ? Colour{1, 1, 1} : material->tint)
                                 : material->reflected(mirror, normal_value);
-        spawn(hit, reflected_direction(query.ray.direction, spot.normal), path, part);
+        spawn(hit, reflected_direction(query.ray.direction, spot.normal), path, part, brought);
     }
     if (material->transparent && mirror < 1.0) {
         Vec3 direction;
         if (refracted_direction(query.ray.direction, spot.normal, index, direction)) {
             const double part = material->transmission * (1.0 - mirror);
-            spawn(hit, direction, path, {part, part, part});
+            spawn(hit, direction, path, {part, part, part}, brought);
         }
     }
     return spot;
 }
 
 /// Lets a ray go on, or puts ambient light in the place of what it would bring.
-void RayShader::spawn(const Hit& hit, Vec3 direction, const Path& path, Colour weight) {
+void RayShader::spawn(const Hit& hit, Vec3 direction, const Path& path, Colour weight,
+                      Colour& brought) {
     const Colour total = path.weight * weight;
     if (path.depth >= stage_->max_depth || max_norm(total) < stage_->min_weight) {
-        answers_[path.lane].light += total * stage_->ambient;
+        brought += total * stage_->ambient;
         return;
     }
-    pending_.push_back({from_surface(hit, direction), {total, path.depth + 1, path.lane}});
+    pending_.push_back({from_surface(hit, direction), {total, path.depth + 1, path.lane, 0}});
 }
 
 void RayShader::light_directly(const Lamp& lamp, std::size_t count, const RayQuery* queries,
@@ -215,7 +245,7 @@ void RayShader::light_directly(const Lamp& lamp, std::size_t count, const RayQue
     std::array<RayQuery, kPacket> shadows;
     std::array<Colour, kPacket> gains;
     std::array<std::size_t, kPacket> which;
-    std::array<bool, kPacket> blocked{};
+    std::array<csg::MaterialId, kPacket> media;
     std::size_t rays = 0;
     Arrival arrival;
     for (std::size_t i = 0; i < count; ++i) {
@@ -226,20 +256,12 @@ void RayShader::light_directly(const Lamp& lamp, std::size_t count, const RayQue
         if (!matters(gains[rays], paths[i])) continue;
         shadows[rays] = from_surface(hits[i], arrival.direction);
         shadows[rays].t_max = arrival.distance;
+        media[rays] = hits[i].medium_before;
         which[rays++] = i;
     }
     if (rays == 0) return;
-    if (lamp.shadows()) {
-        counts_.shadow += rays;
-        tracer_.occluded({shadows.data(), rays}, blocked.data());
-    }
-    for (std::size_t r = 0; r < rays; ++r) {
-        if (blocked[r]) continue;
-        const std::size_t i = which[r];
-        spots[i].light += lamp.shadows() && stage_->scene->has_transparency()
-                              ? gains[r] * filtered(shadows[r], hits[i].medium_before)
-                              : gains[r];
-    }
+    if (lamp.shadows()) dim({shadows.data(), rays}, media.data(), gains.data());
+    for (std::size_t r = 0; r < rays; ++r) spots[which[r]].light += gains[r];
 }
 
 /// The lamp's light by several samples of its area; the fewer, the less the hit counts in the picture.
@@ -252,14 +274,15 @@ void RayShader::light_softly(const Lamp& lamp, const RayQuery& query, const Hit&
     const double part = 1.0 / samples;
     // Every hit and lamp has its own set of points, of which the pixel's samples take their turns.
     const std::uint64_t set =
-        mix(eye.seed + (static_cast<std::uint64_t>(events_[path.lane]++) << 40U) + 1);
+        mix(eye.seed + (static_cast<std::uint64_t>(path.event) << 40U) +
+            (static_cast<std::uint64_t>(&lamp - stage_->lamps.data()) << 32U) + 1);
 
     Arrival arrival;
     for (std::uint32_t first = 0; first < samples; first += kPacket) {
         const std::uint32_t last = std::min<std::uint32_t>(first + kPacket, samples);
         std::array<RayQuery, kPacket> shadows;
         std::array<Colour, kPacket> gains;
-        std::array<bool, kPacket> blocked{};
+        std::array<csg::MaterialId, kPacket> media;
         std::size_t rays = 0;
         for (std::uint32_t k = first; k < last; ++k) {
             const Point2 place = sample_point(eye.sample * samples + k, set);
@@ -269,20 +292,12 @@ void RayShader::light_softly(const Lamp& lamp, const RayQuery& query, const Hit&
             gains[rays] = gain(query, arrival, nl, spot);
             if (!matters(gains[rays], path)) continue;
             shadows[rays] = from_surface(hit, arrival.direction);
-            shadows[rays++].t_max = arrival.distance;
+            shadows[rays].t_max = arrival.distance;
+            media[rays++] = hit.medium_before;
         }
         if (rays == 0) continue;
-        if (lamp.shadows()) {
-            counts_.shadow += rays;
-            tracer_.occluded({shadows.data(), rays}, blocked.data());
-        }
-        for (std::size_t r = 0; r < rays; ++r) {
-            if (blocked[r]) continue;
-            spot.light += (lamp.shadows() && stage_->scene->has_transparency()
-                               ? gains[r] * filtered(shadows[r], hit.medium_before)
-                               : gains[r]) *
-                          part;
-        }
+        if (lamp.shadows()) dim({shadows.data(), rays}, media.data(), gains.data());
+        for (std::size_t r = 0; r < rays; ++r) spot.light += gains[r] * part;
     }
 }
 
@@ -297,14 +312,35 @@ Colour RayShader::gain(const RayQuery& query, const Arrival& arrival, double nl,
            (spot.body * (1.0 - material.specular(nl)) + facet_term(material, spot.nv, nl, vl));
 }
 
-/// What transparent parts on the way to a lamp leave of its light. It goes straight on, as bending
-/// would leave the lamp aside [Whitted80]. `at` is the medium in which the ray starts.
-Colour RayShader::filtered(RayQuery shadow, csg::MaterialId at) {
+/// Takes from the gains of a packet of shadow rays what does not arrive. `media`: in which each ray starts.
+void RayShader::dim(std::span<const RayQuery> shadows, const csg::MaterialId* media,
+                    Colour* gains) {
+    counts_.shadow += shadows.size();
+    std::array<bool, kPacket> met{};
+    if (!stage_->scene->has_transparency()) {
+        tracer_.occluded(shadows, met.data());
+        for (std::size_t r = 0; r < shadows.size(); ++r) {
+            if (met[r]) gains[r] = {};
+        }
+        return;
+    }
+    std::array<Hit, kPacket> hits;
+    tracer_.first_hits(shadows, hits.data(), met.data());
+    for (std::size_t r = 0; r < shadows.size(); ++r) {
+        if (!met[r]) {
+            const Surface& around = medium(media[r]);
+            if (around.absorbs) gains[r] = gains[r] * transmittance(around, shadows[r].t_max);
+        } else {
+            gains[r] = gains[r] * filtered(shadows[r], hits[r]);
+        }
+    }
+}
+
+/// What transparent parts on the way to a lamp leave of its light, from the first surface `hit` on. It goes straight on,
+/// as bending would leave the lamp aside [Whitted80].
+Colour RayShader::filtered(RayQuery shadow, Hit hit) {
     Colour left{1, 1, 1};
-    Hit hit;
     for (;;) {
-        ++counts_.shadow;
-        if (!tracer_.first_hit(shadow, hit)) break;
         left = left * transmittance(medium(hit.medium_before), hit.t);
         const Surface& material = surface(hit.material);
         if (!material.transparent) return {};
@@ -313,12 +349,14 @@ Colour RayShader::filtered(RayQuery shadow, csg::MaterialId at) {
         left *= material.transmission * (1.0 - fresnel(cosine, std::max(ratio, 1.0 / ratio)));
         if (max_norm(left) < kDark) return {};
         const double rest = shadow.t_max - hit.t;
+        const Surface& behind = medium(hit.medium_after);
         shadow = from_surface(hit, shadow.ray.direction);
         shadow.t_max = rest;
-        at = hit.medium_after;
+        ++counts_.shadow;
+        if (!tracer_.first_hit(shadow, hit)) {
+            return behind.absorbs ? left * transmittance(behind, rest) : left;
+        }
     }
-    const Surface& last = medium(at);
-    return last.absorbs ? left * transmittance(last, shadow.t_max) : left;
 }
 
 }  // namespace raymo::render

@@ -5,8 +5,8 @@
 //     body * ambient + facets * surroundings
 //     power n.l (body + facets) for each lamp that is not hidden                  (light_model.hpp)
 //     the mirror image and the refracted image                           (rays that are traced next)
-// Rays to be traced next wait on a stack with the weight that they will have in the picture, so
-// there is no recursion.
+// Rays to be traced next wait in a list with the weight that they will have in the picture, so
+// there is no recursion; they are traced in packets, one wave a bounce.
 // A ray that starts on a surface names that surface instead of starting a little above it; together
 // with exact normals this leaves neither acne nor light leaks. A lamp behind a surface does not
 // light it.
@@ -87,7 +87,8 @@ private:
     struct Path {
         Colour weight;
         int depth = 0;
-        std::size_t lane = 0;  ///< of the eye ray it descends from
+        std::size_t lane = 0;     ///< of the eye ray it descends from
+        std::uint32_t event = 0;  ///< number of the hit among those of its eye ray
     };
     struct Pending {
         trace::RayQuery query;
@@ -103,9 +104,12 @@ private:
         bool lit;      ///< lamps count
     };
 
+    /// Sums up the light of hits into brought_ and puts the rays that go on from them on the list.
     void shade(std::size_t count, const trace::RayQuery* queries, const trace::Hit* hits,
                const Path* paths);
-    [[nodiscard]] Spot approach(const trace::RayQuery& query, const trace::Hit& hit, Path& path);
+    void follow(std::span<const Pending> rays);
+    [[nodiscard]] Spot approach(const trace::RayQuery& query, const trace::Hit& hit, Path& path,
+                                Colour& brought);
     void light_directly(const Lamp& lamp, std::size_t count, const trace::RayQuery* queries,
                         const trace::Hit* hits, const Path* paths, Spot* spots);
     void light_softly(const Lamp& lamp, const trace::RayQuery& query, const trace::Hit& hit,
@@ -116,8 +120,10 @@ private:
         // Less than this can not be seen even in sums over a few lamps.
         return max_norm(gain * path.weight) > 0.125 * stage_->min_weight;
     }
-    void spawn(const trace::Hit& hit, Vec3 direction, const Path& path, Colour weight);
-    [[nodiscard]] Colour filtered(trace::RayQuery shadow, csg::MaterialId at);
+    void spawn(const trace::Hit& hit, Vec3 direction, const Path& path, Colour weight,
+               Colour& brought);
+    void dim(std::span<const trace::RayQuery> shadows, const csg::MaterialId* media, Colour* gains);
+    [[nodiscard]] Colour filtered(trace::RayQuery shadow, trace::Hit hit);
     [[nodiscard]] const Surface& surface(csg::MaterialId id);
     [[nodiscard]] const Surface& medium(csg::MaterialId id);
 
@@ -126,7 +132,9 @@ private:
     std::vector<std::unique_ptr<const Surface>> surfaces_;  ///< by material, made when first seen
     std::unique_ptr<const Surface> unpainted_;
     Surface air_;
-    std::vector<Pending> pending_;
+    std::vector<Pending> pending_;  ///< rays of the next wave
+    std::vector<Pending> wave_;
+    std::array<Colour, kPacket> brought_{};  ///< by shade(), for each of its hits
     std::span<const EyeRay> eyes_;
     Answer* answers_ = nullptr;
     std::array<std::uint32_t, kPacket> events_{};  ///< hits shaded so far, by lane

@@ -48,6 +48,7 @@ struct Leaf {
     std::uint32_t look;
     std::uint32_t order;    ///< place in the model, left to right
     std::uint8_t unit = 1;  ///< first leaf of a unit: how many leaves the unit has; 0: a later one
+    bool alone = false;     ///< the only leaf of its part
 };
 
 /// How the kernels of a type are computed for several rays at once.

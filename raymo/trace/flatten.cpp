@@ -442,6 +442,15 @@ void Flattener::normalise(Work& work, CompiledSolid& out) {
             work.unit_sizes.push_back(1);
         }
     }
+    std::vector<std::uint32_t> members(
+        out.parts);  // leaves and groups right below each part's root
+    for (const Leaf& leaf : out.leaves) {
+        if (leaf.parent < out.parts) ++members[leaf.parent];
+    }
+    for (const Group& group : out.groups) {
+        if (group.parent < out.parts) ++members[group.parent];
+    }
+    for (Leaf& leaf : out.leaves) leaf.alone = leaf.parent < out.parts && members[leaf.parent] == 1;
 }
 
 }  // namespace raymo::trace

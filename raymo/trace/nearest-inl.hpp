@@ -4,7 +4,8 @@
 // A solid is simple when every part is a union of units: leaves, and products of leaves (a & b - c - d). Seen from outside
 // of all of them, the first change of any part is the nearest place where some unit is entered, which takes a minimum
 // over units instead of events and counters. The answer is taken only where it is certain to be what the events would
-// give (walker.hpp): nothing else may overlap it, the ray may not start inside a unit, and no comparison may have been
+// give (walker.hpp): nothing else may overlap it, the ray may not start inside a unit (but for one that is a whole part
+// by itself, such as a glass ball), and no comparison may have been
 // undecided. Other rays are left over (`Nearest::deferred`) and traced one by one.
 
 /// The ends of one span of a leaf as events of the base ray. `lo` and `hi` are their earliest and latest places.
@@ -113,6 +114,9 @@ HWY_INLINE void store(const NearestInLanes& l, Nearest& n, int first) {
     store(l.t + l.error, n.hi + first);
 }
 
+/// Added to the number of a leaf that is left instead of entered.
+inline constexpr double kLeaving = 0.5;
+
 /// A leaf by itself. Returns the rays that start inside it.
 HWY_INLINE std::uint32_t meet_leaf(Walker<8>& w, std::uint32_t index, int first,
                                    std::uint32_t lanes, NearestInLanes& nearest) {
@@ -136,7 +140,13 @@ HWY_INLINE std::uint32_t meet_leaf(Walker<8>& w, std::uint32_t index, int first,
         const Mask left = span.exit.lo <= nearest.start;
         nearest.pass(about, span.enter.hi);
         nearest.pass(lane_and(about, left), span.exit.hi);
-        inside |= bits(lane_and(about, lane_not(left)));
+        const std::uint32_t within = bits(lane_and(about, lane_not(left)));
+        if (within == 0) continue;
+        inside |= within;
+        if (!w.contexts[0].solid->leaves[index].alone) continue;
+        // The part ends where its only leaf ends: that is another surface to be met.
+        nearest.offer(lane_and(mask_of(within), span.exit.lo <= nearest.limit), span.exit,
+                      Lanes(static_cast<double>(index) + kLeaving));
     }
     return inside;
 }
@@ -266,7 +276,14 @@ HWY_INLINE void walk_nearest(Walker<8>& w) {
                 const std::uint32_t inside =
                     size == 1 ? meet_leaf(w, leaf, first, here, nearest)
                               : meet_product(w, leaf, size, first, here, nearest);
-                n.deferred |= inside << first;
+                for (std::uint32_t rest = inside << first; rest != 0; rest &= rest - 1) {
+                    // Inside one part that is a single leaf is simple enough.
+                    const int i = __builtin_ctz(rest);
+                    const bool known =
+                        n.inside[i] < 0.0 && c.solid->leaves[leaf].alone && w.mode == Mode::first;
+                    n.inside[i] = static_cast<double>(leaf);
+                    if (!known) n.deferred |= 1U << i;
+                }
                 k += static_cast<std::uint32_t>(size);
             }
             store(nearest, n, first);

@@ -71,7 +71,7 @@ HWY_INLINE void reset_nearest(Nearest& n) {
         n.lo[i] = n.t[i] = n.hi[i] = n.second_lo[i] = n.trouble_lo[i] = kInfinity;
         n.start_hi[i] = -kInfinity;
         n.error[i] = n.face[i] = 0.0;
-        n.leaf[i] = -1.0;
+        n.leaf[i] = n.inside[i] = -1.0;
         n.found[i] = false;
     }
     n.deferred = 0;

@@ -195,6 +195,53 @@ TEST_CASE("trace: packets and single rays give the same bits") {
     CHECK(hits > 2000);
 }
 
+TEST_CASE("trace: from within glass, packets and single rays give the same bits") {
+    scene::Scene scene;
+    scene.materials.resize(2);
+    scene.materials[0].transmission = 0.9;
+    scene.parts.push_back({"slab", csg::paint(moved(block({10, 1, 10}), {-5, -2, -5}), 0), {}});
+    scene.parts.push_back({"ball", csg::paint(moved(sphere(1.5), {0, 1, 0}), 0), {}});
+    scene.parts.push_back({"core", csg::paint(moved(sphere(0.6), {0, 1, 0}), 1), {}});
+    scene.parts.push_back(
+        {"pair", join(moved(sphere(1.0), {3, 1, 0}), moved(sphere(1.0), {4, 1, 0})), {}});
+    const auto compiled = compile(scene);
+    REQUIRE(compiled.has_value());
+    Tracer tracer(*compiled);
+    std::mt19937_64 random(3);
+    std::uniform_real_distribution<double> uniform(-1, 1);
+    int exits = 0;
+    for (int k = 0; k < 4000; ++k) {
+        std::vector<RayQuery> queries(8);
+        for (RayQuery& q : queries) {
+            RayQuery eye;
+            eye.ray = {{uniform(random), -8, uniform(random)},
+                       {0.3 * uniform(random), 1, 0.3 * uniform(random)}};
+            q = eye;
+            Hit hit;
+            if (k % 2 == 0 || !tracer.first_hit(eye, hit)) continue;
+            q.ray = {hit.point, {uniform(random), uniform(random), uniform(random)}};
+            q.start = hit.surface;
+            q.start_error = hit.point_error;
+        }
+        Hit together[8];
+        bool found[8];
+        tracer.first_hits(queries, together, found);
+        for (std::size_t i = 0; i < 8; ++i) {
+            Hit alone;
+            REQUIRE(tracer.first_hit(queries[i], alone) == found[i]);
+            if (!found[i]) continue;
+            exits += alone.entering ? 0 : 1;
+            CHECK(alone.t == together[i].t);
+            CHECK(alone.entering == together[i].entering);
+            CHECK(alone.part == together[i].part);
+            CHECK(alone.medium_before == together[i].medium_before);
+            CHECK(alone.medium_after == together[i].medium_after);
+            CHECK(alone.normal == together[i].normal);
+        }
+    }
+    CHECK(exits > 1000);
+}
+
 TEST_CASE("trace: a solid without end is an error that names it; cut to size it is fine") {
     const Solid half = primitive("halfspace", {Vec3{0, 0, 1}, 0.0});
     const auto open = compile(scene_of({half}));

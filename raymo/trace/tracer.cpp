@@ -171,7 +171,7 @@ void Tracer::State::fill(Hit& hit, std::size_t i) const {
     hit.error = n.surface[4][i];
     hit.point = {n.surface[5][i], n.surface[6][i], n.surface[7][i]};
     hit.point_error = n.surface[8][i];
-    hit.entering = true;
+    hit.entering = n.leaf[i] == std::floor(n.leaf[i]);
     hit.part = leaf.parent < base.parts ? leaf.parent : base.groups[leaf.parent].parent;
     hit.material = look.material;
     if (look.borrows) {
@@ -188,7 +188,11 @@ void Tracer::State::fill(Hit& hit, std::size_t i) const {
         }
     }
     hit.medium_before = Hit::kAir;
-    hit.medium_after = hit.material;
+    if (n.inside[i] >= 0.0) {
+        hit.medium_before =
+            data->looks[base.leaves[static_cast<std::uint32_t>(n.inside[i])].look].material;
+    }
+    hit.medium_after = hit.entering ? hit.material : Hit::kAir;
     hit.surface = {base.first_leaf + index, 0, static_cast<std::uint16_t>(n.face[i])};
 }
 

@@ -200,6 +200,7 @@ struct Unopened {
 /// The nearest surface of each ray of a packet, as nearest-inl.hpp finds it; what the names mean is told there.
 struct alignas(64) Nearest {
     double lo[8], t[8], hi[8], error[8], face[8], leaf[8];
+    double inside[8];  ///< leaf that the ray starts in, or -1
     double second_lo[8], start_hi[8], trouble_lo[8];
     double start[8], limit[8], shift[8], t_per_s[8];
     double surface[9][8];  ///< normal (3), t, error, point (3), point_error
