@@ -130,6 +130,24 @@ bool has_room(const Aabb& box) {
     return box.lo.x < box.hi.x && box.lo.y < box.hi.y && box.lo.z < box.hi.z;
 }
 
+/// Box of one leaf that adds to the solid: the first one, going down by first operands.
+Aabb first_leaf(const csg::Solid& solid) {
+    const csg::Node* node = &solid.node();
+    Affine map;
+    while (node->kind != csg::NodeKind::leaf) {
+        if (node->kind == csg::NodeKind::transform) {
+            map = map * csg::as_transform(*node).map;
+            node = &csg::as_transform(*node).child.node();
+        } else if (node->kind == csg::NodeKind::paint) {
+            node = &csg::as_paint(*node).child.node();
+        } else {
+            node = &csg::as_boolean(*node).operands[0].node();
+        }
+    }
+    const solids::AnySolid& leaf = csg::as_leaf(*node).solid;
+    return std::visit([&](const auto& k) { return k.bounds(map * leaf.to_object); }, leaf.kernel);
+}
+
 bool stopped(Progress* progress) { return progress != nullptr && progress->cancelled(); }
 Failure cancelled() { return fail(ErrorCode::cancelled, "interrupted"); }
 
@@ -260,7 +278,12 @@ Result<bool> is_empty(const csg::Solid& solid, Progress* progress) {
 Result<bool> is_empty(const scene::Scene& scene, const trace::CompiledScene& compiled,
                       Progress* progress) {
     if (!has_room(compiled.bounds())) return true;
-    if (Prober(compiled).meets(compiled.bounds(), 4)) return false;
+    Prober prober(compiled);
+    if (prober.meets(compiled.bounds(), 4)) return false;
+    for (std::size_t i = 0; i < std::min<std::size_t>(scene.parts.size(), 8); ++i) {
+        const Aabb box = overlap(first_leaf(scene.parts[i].solid), compiled.bounds());
+        if (has_room(box) && prober.meets(box, 2)) return false;
+    }
     Locator locator(scene);
     return search(locator, compiled, progress);
 }

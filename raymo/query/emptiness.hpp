@@ -1,7 +1,8 @@
 // Whether anything is left of a solid.
 //
 // Three means, from cheap to thorough:
-//   1. rays through the model's box: a model that is there is nearly always hit by the first few;
+//   1. rays through the model's box and through its first leaf: a model that is there is nearly
+//      always hit by the first few;
 //   2. cells: the boxes in which each leaf can matter (its active zones) are halved again and
 //   again, and a cell in which
 //      the Locator finds all points in proves that the solid is there, cells all of whose points

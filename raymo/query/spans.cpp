@@ -42,8 +42,9 @@ void named_spans(const trace::CompiledScene& scene, trace::Tracer& tracer, const
             out.push_back(s);
         }
     }
-    std::stable_sort(out.begin(), out.end(),
-                     [](const NamedSpan& a, const NamedSpan& b) { return a.enter.t < b.enter.t; });
+    std::sort(out.begin(), out.end(), [](const NamedSpan& a, const NamedSpan& b) {
+        return a.enter.t != b.enter.t ? a.enter.t < b.enter.t : a.part < b.part;
+    });
 }
 
 }  // namespace raymo::query
