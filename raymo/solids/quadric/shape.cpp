@@ -159,9 +159,10 @@ Vec3 QuadricShape::origin(const QuadraticForm& form) const {
         if (value[i] == 0.0) continue;
         const double offset = -dot(axis[i], form.b) / value[i];
         // Along a long axis the centre is no better than the user's own origin when that is no farther from the centre
-        // than the surface is, offset^2 value = level.
-        placed[i] = std::fabs(value[i]) >= kWeakValue * largest ||
-                    offset * offset * std::fabs(value[i]) > 16.0 * std::fabs(level);
+        // than the surface is, offset^2 value = level. A paraboloid has no such centre.
+        placed[i] =
+            std::fabs(value[i]) >= kWeakValue * largest ||
+            (!has_slope() && offset * offset * std::fabs(value[i]) > 16.0 * std::fabs(level));
         if (placed[i]) place += axis[i] * offset;
     }
     // Along the axes that are left, on to the surface, if that is near.
