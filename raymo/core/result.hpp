@@ -30,10 +30,11 @@ enum class ErrorCode : std::uint8_t {
 /// An error a designer can act on: what is wrong, where, and how to mend it.
 struct Error {
     ErrorCode code = ErrorCode::evaluation;
-    std::string message;   ///< one sentence about the user's thing: "sphere: radius must be greater than 0"
-    std::string label;     ///< what the caret says: "this is -1"; may be empty
-    std::string hint;      ///< a mend that works; may be empty
-    int argument = -1;     ///< index of the schema parameter at fault, or -1
+    std::string
+        message;  ///< one sentence about the user's thing: "sphere: radius must be greater than 0"
+    std::string label;      ///< what the caret says: "this is -1"; may be empty
+    std::string hint;       ///< a mend that works; may be empty
+    int argument = -1;      ///< index of the schema parameter at fault, or -1
     SourceSpan where = {};  ///< filled in by the layer that knows the text
 
     [[nodiscard]] Error with_label(std::string text) && {

@@ -12,8 +12,10 @@ inline void append(const LaneSpans<double, bool, N>& lanes, SpanList& out) {
     if (lanes.degenerate) out.set_degenerate();
     for (int i = 0; i < N; ++i) {
         if (!lanes.valid[i]) continue;
-        out.push({{lanes.enter[i], lanes.enter_error[i], static_cast<std::uint16_t>(lanes.enter_face[i])},
-                  {lanes.exit[i], lanes.exit_error[i], static_cast<std::uint16_t>(lanes.exit_face[i])}});
+        out.push(
+            {{lanes.enter[i], lanes.enter_error[i],
+              static_cast<std::uint16_t>(lanes.enter_face[i])},
+             {lanes.exit[i], lanes.exit_error[i], static_cast<std::uint16_t>(lanes.exit_face[i])}});
     }
 }
 

@@ -16,14 +16,19 @@ namespace raymo::solids {
 /// What a prepared solid answers, in its own canonical frame (centred on the origin, of size about 1). Immutable, so
 /// safe to share between threads.
 template <class K>
-concept Kernel = std::copyable<K> && requires(const K k, const LocalRay<double> ray, SpanList& out, Vec3 p, Vec3 e,
-                                              std::uint16_t face, const Affine map) {
-    { k.bounds(map) } -> std::same_as<Aabb>;      ///< Exact box of the image of the solid under `map`.
-    { k.spans(ray, out) } -> std::same_as<void>;  ///< Appends spans: ascending in s, disjoint. Cannot fail.
-    { k.normal(p, face) } -> std::same_as<Vec3>;  ///< Outward, of any length > 0, at a point of that face.
-    { k.where(p, e) } -> std::same_as<Where>;     ///< `on` when the boundary is within e of p.
+concept Kernel = std::copyable<K> &&
+    requires(const K k, const LocalRay<double> ray, SpanList& out, Vec3 p, Vec3 e,
+             std::uint16_t face, const Affine map) {
+    { k.bounds(map) } -> std::same_as<Aabb>;  ///< Exact box of the image of the solid under `map`.
+    {
+        k.spans(ray, out)
+        } -> std::same_as<void>;  ///< Appends spans: ascending in s, disjoint. Cannot fail.
+    {
+        k.normal(p, face)
+        } -> std::same_as<Vec3>;  ///< Outward, of any length > 0, at a point of that face.
+    { k.where(p, e) } -> std::same_as<Where>;  ///< `on` when the boundary is within e of p.
     { k.faces() } -> std::same_as<std::span<const std::string_view>>;  ///< Names of the faces.
-    { k == k } -> std::same_as<bool>;             ///< Equal kernels are stored once.
+    { k == k } -> std::same_as<bool>;  ///< Equal kernels are stored once.
 };
 
 /// A kernel and the map from its canonical frame to the frame in which the user wrote the solid.

@@ -20,17 +20,27 @@ std::string shown(double value) {
 Result<void> check_number(const Schema& schema, const Param& param, double value) {
     const std::string subject = std::string(schema.name) + ": " + std::string(param.words);
     if (!std::isfinite(value)) {
-        return Failure(Error{ErrorCode::out_of_range, subject + " must be a finite number",
-                             "this is " + shown(value), {}, -1, {}});
+        return Failure(Error{ErrorCode::out_of_range,
+                             subject + " must be a finite number",
+                             "this is " + shown(value),
+                             {},
+                             -1,
+                             {}});
     }
     if (value < param.min || (value == param.min && !param.min_included)) {
-        const std::string relation = param.min_included ? " must be at least " : " must be greater than ";
+        const std::string relation =
+            param.min_included ? " must be at least " : " must be greater than ";
         const std::string hint =
-            param.min == 0.0 ? "give a " + std::string(param.min_included ? "non-negative " : "positive ") +
-                                   std::string(param.words)
-                             : std::string();
-        return Failure(Error{ErrorCode::out_of_range, subject + relation + shown(param.min),
-                             "this is " + shown(value), hint, -1, {}});
+            param.min == 0.0
+                ? "give a " + std::string(param.min_included ? "non-negative " : "positive ") +
+                      std::string(param.words)
+                : std::string();
+        return Failure(Error{ErrorCode::out_of_range,
+                             subject + relation + shown(param.min),
+                             "this is " + shown(value),
+                             hint,
+                             -1,
+                             {}});
     }
     return {};
 }

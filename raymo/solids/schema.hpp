@@ -19,7 +19,7 @@ enum class ParamKind : unsigned char {
     angle,   ///< number [degrees]
     flag,    ///< boolean
     vector,  ///< three numbers
-    size,    ///< three lengths, given as one vector, as three numbers in a row, or as one number for all three
+    size,  ///< three lengths, given as one vector, as three numbers in a row, or as one number for all three
     matrix,  ///< 4x4 list of numbers by rows
 };
 
@@ -27,7 +27,7 @@ using Matrix4 = std::array<double, 16>;
 using Argument = std::variant<double, bool, Vec3, Matrix4>;
 
 struct Param {
-    std::string_view name;  ///< as written in the language
+    std::string_view name;   ///< as written in the language
     std::string_view words;  ///< as spoken of in errors: "radius"
     ParamKind kind = ParamKind::length;
     std::string_view doc;

@@ -29,7 +29,8 @@ inline Triple<R> normal_outside(const Frame& frame, Triple<R> n) {
 template <class R>
 inline Triple<R> place_in_leaf(const Local<R>& local, R t) {
     const R s = t - local.shift;
-    return {local.ray.ox + s * local.ray.dx, local.ray.oy + s * local.ray.dy, local.ray.oz + s * local.ray.dz};
+    return {local.ray.ox + s * local.ray.dx, local.ray.oy + s * local.ray.dy,
+            local.ray.oz + s * local.ray.dz};
 }
 
 /// From the base frame back to the model's.
@@ -38,8 +39,8 @@ struct Surface {
     R t, error, x, y, z, point_error;
 };
 template <class R>
-inline Surface<R> surface_at(const CompiledSolid& base, Triple<R> o, Triple<R> d, Triple<R> normal, R s, R error,
-                             R shift, R t_per_s, R step) {
+inline Surface<R> surface_at(const CompiledSolid& base, Triple<R> o, Triple<R> d, Triple<R> normal,
+                             R s, R error, R shift, R t_per_s, R step) {
     const R unit_roundoff = R(kUnitRoundoff);
     const R two = R(2.0);
     const auto size = [](Triple<R> v) {
@@ -48,7 +49,8 @@ inline Surface<R> surface_at(const CompiledSolid& base, Triple<R> o, Triple<R> d
     const R inverse = R(1.0 / base.scale);  // a power of two
     const R facing = lane_abs(normal.x * d.x + normal.y * d.y + normal.z * d.z);
     // A ray that was moved aside by `step` meets the surface that much to the side.
-    const R aside = lane_select(step > R(0.0), lane_min(step / lane_max(facing, R(1e-300)), two), R(0.0));
+    const R aside =
+        lane_select(step > R(0.0), lane_min(step / lane_max(facing, R(1e-300)), two), R(0.0));
     Surface<R> out;
     out.t = (s + shift) * t_per_s;
     out.error = (error + aside + two * unit_roundoff * lane_abs(shift)) * t_per_s +
@@ -57,7 +59,8 @@ inline Surface<R> surface_at(const CompiledSolid& base, Triple<R> o, Triple<R> d
     out.y = R(base.centre.y) + (o.y + d.y * s) * inverse;
     out.z = R(base.centre.z) + (o.z + d.z * s) * inverse;
     const Triple<R> point{out.x, out.y, out.z};
-    out.point_error = (error * facing + R(4.0) * unit_roundoff * (size(o) + lane_abs(s))) * inverse +
-                      two * unit_roundoff * (size(point) + R(max_norm(base.centre)));
+    out.point_error =
+        (error * facing + R(4.0) * unit_roundoff * (size(o) + lane_abs(s))) * inverse +
+        two * unit_roundoff * (size(point) + R(max_norm(base.centre)));
     return out;
 }
