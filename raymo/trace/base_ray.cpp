@@ -32,7 +32,8 @@ BaseRay base_ray(const CompiledSolid& solid, const RayQuery& query) {
         out.d[a] = direction[a] * unit_scale;
     }
     const double far = max_norm(out.o);
-    out.error = query.start_error * solid.scale + 4.0 * kUnitRoundoff * std::min(far, kFarOrigin);
+    out.error = 4.0 * kUnitRoundoff * std::min(far, kFarOrigin);
+    out.start_error = query.start_error * solid.scale;
     if (far > kFarOrigin) {
         out.shift = -dot(out.o, out.d) / dot(out.d, out.d);
         for (int a = 0; a < 3; ++a) {
@@ -53,7 +54,7 @@ BaseRay moved_aside(BaseRay ray, double step, int attempt, bool on_surface) {
     const double length = step * static_cast<double>(1 << (2 * attempt));
     ray.o += s * (length * std::cos(angle)) + t * (length * std::sin(angle));
     ray.step = length;
-    ray.error += on_surface ? length : 0.0;
+    if (on_surface) ray.start_error += length;
     return ray;
 }
 

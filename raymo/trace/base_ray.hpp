@@ -20,7 +20,8 @@ struct BaseRay {
     double shift = 0.0;    ///< s = 0 stands at this parameter (in lengths of d) of the user's ray
     double t_per_s = 1.0;  ///< user's t = (s + shift) * t_per_s; a power of two
     double error = 0.0;    ///< of o
-    double step = 0.0;     ///< how far the ray was moved aside
+    double start_error = 0.0;  ///< distance of the start from its surface, at most
+    double step = 0.0;         ///< how far the ray was moved aside
 
     [[nodiscard]] double to_s(double t) const { return t / t_per_s - shift; }
 };

@@ -31,9 +31,17 @@ HWY_INLINE void lane_spans(const solids::Halfspace::Kernel&, const Ray8& ray,
 struct Placing {
     double t0;     ///< of the context
     double shift;  ///< of the leaf
+    /// Where the ray starts on a surface it may miss it by more than its own error: by 1 + `slack` times as much.
+    double slack;
     std::uint32_t leaf;
     std::uint32_t context;
 };
+
+/// How much further than its own error a ray's start may lie from its surface, in that error.
+template <class R>
+HWY_INLINE R start_slack(R start_error, R place_error) {
+    return start_error / lane_max(place_error, R(1e-300));
+}
 
 HWY_INLINE Event event_at(const Placing& at, double s, double error, std::uint16_t face,
                           bool enter) {
@@ -41,7 +49,8 @@ HWY_INLINE Event event_at(const Placing& at, double s, double error, std::uint16
     const double rounding =
         2.0 * kUnitRoundoff * (std::fabs(at.t0) + std::fabs(at.shift) + std::fabs(s));
     const double total = std::isfinite(s) ? error + rounding : 0.0;
-    return {t - total, t, total, at.leaf, at.context, face, enter, false};
+    return {t - total, t,     total, t - (total + at.slack * total), at.leaf, at.context,
+            face,      enter, false};
 }
 
 template <int L>
@@ -51,15 +60,22 @@ HWY_INLINE void add_span(const Walker<L>& w, Lane& lane, const Event& enter, con
     if (exit.lo < kInfinity) lane.insert(exit);
 }
 
-/// Marks that the ray runs in the boundary of the leaf, from `enter` on; `error`: uncertainty of
-/// its place.
+/// How far to step aside: clear of the boundary over the whole leaf, but little compared to the leaf.
+HWY_INLINE double sidestep(const Frame& frame, double place_error) {
+    const double size = 1.0 / max_norm(frame.row_length);
+    const double clear = kSidestep * place_error;
+    const double most = 0x1p-8 * (size < 1.0 ? size : 1.0);
+    return clear < most ? clear : most;
+}
+
+/// Marks that the ray runs in the boundary of the leaf, from `enter` on; `step`: how far it should be moved aside.
 template <int L>
 HWY_INLINE void add_uncertain(const Walker<L>& w, Lane& lane, Event enter, double exit_hi,
-                              double error) {
+                              double step) {
     if (w.mode != Mode::all && (exit_hi < lane.start || enter.lo > lane.limit)) return;
     if (!(enter.lo == enter.lo)) enter.lo = -kInfinity;
     enter.t = enter.lo;
-    enter.error = error;
+    enter.error = step;
     enter.uncertain = true;
     lane.insert(enter);
 }
@@ -81,6 +97,7 @@ void open_instance(Walker<L>& w, std::uint32_t parent, std::uint32_t leaf_index,
     to.path = (from.path * 0x01000193U) ^ (from.solid->first_leaf + leaf_index + 1);
     to.cuts = from.cuts != look.cuts;
     to.material = look.material != csg::kNoMaterial ? look.material : from.material;
+    to.size = from.size / max_norm(frame.row_length);
     double nearest = kInfinity;
     for (int i = 0; i < L; ++i) {
         const Local<double>& l = locals[i];
@@ -88,6 +105,7 @@ void open_instance(Walker<L>& w, std::uint32_t parent, std::uint32_t leaf_index,
         const double o[3] = {r.ox, r.oy, r.oz};
         const double d[3] = {r.dx, r.dy, r.dz};
         to.t0[i] = from.t0[i] + l.shift;
+        to.start_error[i] = from.start_error[i] * max_norm(frame.row_length);
         to.error[i] = std::sqrt(r.ex * r.ex + r.ey * r.ey + r.ez * r.ez);
         for (int a = 0; a < 3; ++a) {
             to.o[a][i] = o[a];
@@ -138,7 +156,7 @@ HWY_INLINE void visit_kernel(const Walker<L>& w, const Frame& frame, Visit&& vis
 }
 
 template <class K, int L>
-HWY_INLINE void add_spans(const Walker<L>& w, Lane& lane, const K& kernel,
+HWY_INLINE void add_spans(const Walker<L>& w, Lane& lane, const Frame& frame, const K& kernel,
                           const Local<double>& local, const Placing& at) {
     solids::SpanList spans;
     kernel.spans(local.ray, spans);
@@ -146,7 +164,7 @@ HWY_INLINE void add_spans(const Walker<L>& w, Lane& lane, const K& kernel,
         // Where in the leaf is not known: anywhere the ray comes near it.
         const double reach = 2.0 / std::sqrt(local.ray.dd);
         add_uncertain(w, lane, event_at(at, -reach, 0.0, 0, true), at.t0 + (at.shift + reach),
-                      local.place_error);
+                      sidestep(frame, local.place_error) * w.contexts[at.context].size);
     }
     for (std::size_t i = 0; i < spans.size(); ++i) {
         const solids::Span& span = spans[i];
@@ -167,9 +185,10 @@ HWY_INLINE void open_leaf(Walker<1>& w, std::uint32_t context, std::uint32_t ind
         open_instance(w, context, index, frame, lanes, &local);
         return;
     }
-    const Placing at{c.t0[0], local.shift, index, context};
+    const Placing at{c.t0[0], local.shift, start_slack(c.start_error[0], local.place_error), index,
+                     context};
     visit_kernel(w, frame,
-                 [&](const auto& kernel) { add_spans(w, w.lanes[0], kernel, local, at); });
+                 [&](const auto& kernel) { add_spans(w, w.lanes[0], frame, kernel, local, at); });
 }
 
 HWY_INLINE void open_leaf(Walker<8>& w, std::uint32_t context, std::uint32_t index,
@@ -194,7 +213,9 @@ HWY_INLINE void open_leaf(Walker<8>& w, std::uint32_t context, std::uint32_t ind
                 const int i = __builtin_ctz(rest);
                 const auto local = localise<double>(frame, leaf, c.o[0][i], c.o[1][i], c.o[2][i],
                                                     c.d[0][i], c.d[1][i], c.d[2][i], c.error[i]);
-                add_spans(w, w.lanes[i], kernel, local, {c.t0[i], local.shift, index, context});
+                add_spans(w, w.lanes[i], frame, kernel, local,
+                          {c.t0[i], local.shift, start_slack(c.start_error[i], local.place_error),
+                           index, context});
             }
         } else {
             for (int first = 0; first < 8; first += kLanes) {
@@ -212,7 +233,9 @@ HWY_INLINE void open_leaf(Walker<8>& w, std::uint32_t context, std::uint32_t ind
                 for (int k = 0; k < kSpans; ++k) any |= valid[k] = bits(spans.valid[k]) & here;
                 if (any == 0) continue;
                 alignas(64) double shift[8];
+                alignas(64) double slack[8];
                 store(local.shift, shift);
+                store(start_slack(load(c.start_error + first), local.place_error), slack);
                 if (uncertain != 0) {
                     alignas(64) double dd[8];
                     alignas(64) double place[8];
@@ -220,10 +243,11 @@ HWY_INLINE void open_leaf(Walker<8>& w, std::uint32_t context, std::uint32_t ind
                     store(local.place_error, place);
                     for (std::uint32_t rest = uncertain; rest != 0; rest &= rest - 1) {
                         const int i = __builtin_ctz(rest);
-                        const Placing at{c.t0[first + i], shift[i], index, context};
+                        const Placing at{c.t0[first + i], shift[i], slack[i], index, context};
                         const double reach = 2.0 / std::sqrt(dd[i]);
                         add_uncertain(w, w.lanes[first + i], event_at(at, -reach, 0.0, 0, true),
-                                      at.t0 + (at.shift + reach), place[i]);
+                                      at.t0 + (at.shift + reach),
+                                      sidestep(frame, place[i]) * c.size);
                     }
                 }
                 for (int k = 0; k < kSpans; ++k) {
@@ -238,7 +262,7 @@ HWY_INLINE void open_leaf(Walker<8>& w, std::uint32_t context, std::uint32_t ind
                     store(spans.exit_face[k], exit_face);
                     for (std::uint32_t rest = valid[k]; rest != 0; rest &= rest - 1) {
                         const int i = __builtin_ctz(rest);
-                        const Placing at{c.t0[first + i], shift[i], index, context};
+                        const Placing at{c.t0[first + i], shift[i], slack[i], index, context};
                         add_span(w, w.lanes[first + i],
                                  event_at(at, enter[i], enter_error[i],
                                           static_cast<std::uint16_t>(enter_face[i]), true),

@@ -11,19 +11,21 @@
 /// The ends of one span of a leaf as events of the base ray. `lo` and `hi` are their earliest and latest places.
 struct EndInLanes {
     Lanes t, error, lo, hi, face;
+    Lanes near;  ///< lo, as far as the start of a ray on a surface is concerned
 };
 struct SpanInLanes {
     Mask valid;
     EndInLanes enter, exit;
 };
 
-HWY_INLINE EndInLanes end_at(Lanes shift, Lanes s, Lanes error, Lanes face) {
+HWY_INLINE EndInLanes end_at(Lanes shift, Lanes slack, Lanes s, Lanes error, Lanes face) {
     EndInLanes out;
     out.t = shift + s;
     const Lanes rounding = Lanes(2.0 * kUnitRoundoff) * (lane_abs(shift) + lane_abs(s));
     out.error = lane_select(lane_abs(s) < Lanes(kInfinity), error + rounding, Lanes(0.0));
     out.lo = out.t - out.error;
     out.hi = out.t + out.error;
+    out.near = out.t - (out.error + slack * out.error);
     out.face = face;
     return out;
 }
@@ -42,6 +44,7 @@ HWY_INLINE int spans_of(Walker<8>& w, std::uint32_t index, int first, SpanInLane
     const Local<Lanes> local = localise<Lanes>(
         frame, leaf, load(c.o[0] + first), load(c.o[1] + first), load(c.o[2] + first),
         load(c.d[0] + first), load(c.d[1] + first), load(c.d[2] + first), load(c.error + first));
+    const Lanes slack = start_slack(load(c.start_error + first), local.place_error);
     int count = 0;
     visit_kernel(w, frame, [&]<class K>(const K& kernel) {
         constexpr int kSpans = kSpansInLanes<K>;
@@ -50,10 +53,10 @@ HWY_INLINE int spans_of(Walker<8>& w, std::uint32_t index, int first, SpanInLane
             lane_spans(kernel, local.ray, found);
             for (int k = 0; k < kSpans; ++k) {
                 spans[k].valid = found.valid[k];
-                spans[k].enter =
-                    end_at(local.shift, found.enter[k], found.enter_error[k], found.enter_face[k]);
-                spans[k].exit =
-                    end_at(local.shift, found.exit[k], found.exit_error[k], found.exit_face[k]);
+                spans[k].enter = end_at(local.shift, slack, found.enter[k], found.enter_error[k],
+                                        found.enter_face[k]);
+                spans[k].exit = end_at(local.shift, slack, found.exit[k], found.exit_error[k],
+                                       found.exit_face[k]);
             }
             trouble = found.degenerate;
             count = kSpans;
@@ -131,13 +134,13 @@ HWY_INLINE std::uint32_t meet_leaf(Walker<8>& w, std::uint32_t index, int first,
         const SpanInLanes& span = spans[k];
         const Mask there = lane_and(here, span.valid);
         if (!lane_any(there)) continue;
-        const Mask ahead = span.enter.lo > nearest.start;
+        const Mask ahead = span.enter.near > nearest.start;
         nearest.offer(lane_and(there, lane_and(ahead, span.enter.lo <= nearest.limit)), span.enter,
                       Lanes(static_cast<double>(index)));
         const Mask about =
             lane_and(there, lane_and(lane_not(ahead), span.exit.hi >= nearest.start));
         if (!lane_any(about)) continue;
-        const Mask left = span.exit.lo <= nearest.start;
+        const Mask left = span.exit.near <= nearest.start;
         nearest.pass(about, span.enter.hi);
         nearest.pass(lane_and(about, left), span.exit.hi);
         const std::uint32_t within = bits(lane_and(about, lane_not(left)));
@@ -160,9 +163,10 @@ HWY_INLINE std::uint32_t meet_product(Walker<8>& w, std::uint32_t index, int siz
     Mask doubtful = lane_and(alive, lane_not(alive));
     // Where all positive leaves are entered, and where the first of them is left.
     EndInLanes enter;
-    enter.t = enter.lo = enter.hi = Lanes(-kInfinity);
+    enter.t = enter.lo = enter.hi = enter.near = Lanes(-kInfinity);
     enter.error = enter.face = Lanes(0.0);
     Lanes enter_leaf(0.0);
+    Lanes exit_near(kInfinity);
     Lanes exit_lo(kInfinity);
     Lanes exit_hi(kInfinity);
     SpanInLanes taken[kMostInUnit];
@@ -176,6 +180,9 @@ HWY_INLINE std::uint32_t meet_product(Walker<8>& w, std::uint32_t index, int siz
         static_cast<void>(spans_of(w, leaf, first, spans, trouble, trouble_lo));
         nearest.doubt(lane_and(mask_of(lanes), trouble), trouble_lo);
         const SpanInLanes& span = spans[0];
+        const Mask about = lane_and(lane_and(mask_of(lanes), span.valid), span.exit.hi >= start);
+        nearest.pass(lane_and(about, span.enter.near <= start), span.enter.hi);
+        nearest.pass(lane_and(about, span.exit.near <= start), span.exit.hi);
         const Lanes number(static_cast<double>(leaf));
         if (!w.data->looks[solid.leaves[leaf].look].literal_negated) {
             taken[taken_count] = span;
@@ -194,18 +201,17 @@ HWY_INLINE std::uint32_t meet_product(Walker<8>& w, std::uint32_t index, int siz
         enter_leaf = lane_select(later, number, enter_leaf);
         enter.lo = lane_max(span.enter.lo, enter.lo);
         enter.hi = lane_max(span.enter.hi, enter.hi);
+        enter.near = lane_max(span.enter.near, enter.near);
+        exit_near = lane_min(span.exit.near, exit_near);
         exit_lo = lane_min(span.exit.lo, exit_lo);
         exit_hi = lane_min(span.exit.hi, exit_hi);
     }
     alive = lane_and(alive, lane_and(exit_hi >= start,
                                      lane_and(enter.lo <= nearest.limit, enter.lo <= exit_hi)));
-    const Mask over = lane_and(alive, exit_lo <= start);
-    nearest.pass(over, exit_hi);
-    alive = lane_and(alive, lane_not(over));
+    alive = lane_and(alive, exit_near > start);
     if (!lane_any(alive)) return 0;
     doubtful = lane_or(doubtful, enter.hi >= exit_lo);
-    const Mask begun = enter.lo <= start;
-    nearest.pass(lane_and(alive, begun), enter.hi);
+    const Mask begun = enter.near <= start;
 
     // From there on, as long as the place lies in a leaf that is taken away, go on to where that is left.
     EndInLanes at = enter;
@@ -217,12 +223,11 @@ HWY_INLINE std::uint32_t meet_product(Walker<8>& w, std::uint32_t index, int siz
         bool moved = false;
         for (int j = 0; j < taken_count; ++j) {
             const SpanInLanes& span = taken[j];
-            const Mask entered = lane_and(alive, lane_and(span.valid, span.enter.lo <= at.hi));
-            const Mask left_at_start = lane_and(from_start, span.exit.lo <= start);
-            const Mask left = lane_or(left_at_start, span.exit.hi < at.lo);
-            nearest.pass(lane_and(entered, lane_and(from_start, span.exit.hi >= start)),
-                         span.enter.hi);
-            nearest.pass(lane_and(entered, left_at_start), span.exit.hi);
+            const Mask before =
+                lane_or(span.enter.lo <= at.hi, lane_and(from_start, span.enter.near <= start));
+            const Mask entered = lane_and(alive, lane_and(span.valid, before));
+            const Mask left =
+                lane_or(lane_and(from_start, span.exit.near <= start), span.exit.hi < at.lo);
             const Mask within = lane_and(entered, lane_not(left));
             const Mask goes_on = lane_and(within, span.exit.lo > at.hi);
             doubtful = lane_or(doubtful, lane_and(within, lane_not(span.exit.lo > at.hi)));

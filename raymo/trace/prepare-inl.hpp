@@ -31,9 +31,8 @@ HWY_INLINE void prepare_packet(Walker<8>& w, const RayQuery* queries, int count)
         store(Lanes(0.0), n.shift + first);
         store(Lanes(0.0), n.start + first);
         store(load(t_max + first) / t_per_s, n.limit + first);
-        store(load(start_error + first) * scale +
-                  Lanes(4.0 * kUnitRoundoff) * lane_min(far, Lanes(kFarOrigin)),
-              c.error + first);
+        store(Lanes(4.0 * kUnitRoundoff) * lane_min(far, Lanes(kFarOrigin)), c.error + first);
+        store(load(start_error + first) * scale, c.start_error + first);
         store(Lanes(0.0), c.t0 + first);
         far_rays |= bits(far > Lanes(kFarOrigin)) << first;
     }

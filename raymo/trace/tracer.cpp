@@ -42,6 +42,7 @@ struct Tracer::State {
         }
         c.t0[i] = 0.0;
         c.error[i] = ray.error;
+        c.start_error[i] = ray.start_error;
         w.lanes[i].reset(ray.to_s(0.0), ray.to_s(query.t_max));
         set_box_ray(c, i, w.lanes[i].start, w.lanes[i].limit, w.mode == Mode::all);
     }
@@ -56,6 +57,7 @@ struct Tracer::State {
         c.parent = c.leaf = kNone;
         c.path = 0;
         c.cuts = false;
+        c.size = 1.0;
         c.material = csg::kNoMaterial;
         w.counters.reset();
         w.boxes = w.leaves = 0;
@@ -104,7 +106,7 @@ struct Tracer::State {
             counts.boxes += one.boxes;
             counts.leaves += one.leaves;
             if (!one.lanes[0].stepped_aside) return ray;
-            step = std::max(step, kSidestep * one.lanes[0].step);
+            step = std::max(step, one.lanes[0].step);
             ray = moved_aside(straight, step, attempt, query.start.leaf != SurfaceId::kNone);
         }
     }

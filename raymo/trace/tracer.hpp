@@ -12,8 +12,8 @@
 
 namespace raymo::trace {
 
-/// A place on a surface, kept by a hit and handed back with the rays that start there: no offset is
-/// needed, the crossing is recognised by leaf and face.
+/// A place on a surface, kept by a hit and handed back with the rays that start there. No offset is needed: crossings
+/// that can not be told from the start are passed.
 struct SurfaceId {
     static constexpr std::uint32_t kNone = 0xffffffffU;
     std::uint32_t leaf = kNone;  ///< stored leaf

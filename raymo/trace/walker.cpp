@@ -157,7 +157,7 @@ csg::MaterialId Walker<L>::material_of(const Lane& lane, const Event& event,
 template <int L>
 void Walker<L>::settle(int index, std::size_t end) {
     Lane& lane = lanes[index];
-    const double lo = lane.events[lane.head].lo;
+    bool at_start = false;
     changes_.clear();
     for (std::size_t i = lane.head; i < end; ++i) {
         const Event& event = lane.events[i];
@@ -167,6 +167,7 @@ void Walker<L>::settle(int index, std::size_t end) {
             lane.stepped_aside = true;
             continue;
         }
+        at_start = at_start || event.near <= lane.start;
         flip(index, event);
     }
     if (lane.stepped_aside) {
@@ -211,7 +212,7 @@ void Walker<L>::settle(int index, std::size_t end) {
 
     const Crossing crossing = lane.crossings[shown];
     lane.crossings.clear();
-    if (lo <= lane.start) return;  // behind the start, or the surface that the ray starts on
+    if (at_start) return;  // behind the start, or the surface that the ray starts on
     if (!(crossing.event.t < lane.limit)) {
         finish(index);
     } else if (mode == Mode::first) {

@@ -30,6 +30,7 @@ struct Event {
     double lo;  ///< t - error: events are sorted by this
     double t;
     double error;  ///< of an uncertain event: how far to step aside, instead
+    double near;   ///< lo, if the ray starts on a surface to within RayQuery::start_error
     std::uint32_t leaf;
     std::uint32_t context;
     std::uint16_t face;
@@ -96,6 +97,8 @@ struct alignas(64) Context {
     float from[L], to[L];           ///< start and limit in this frame
     double t0[L];                   ///< t of the base = t0 + t of this frame
     double error[L];                ///< of the ray's place, in this frame
+    double start_error[L];          ///< of the ray's start on its surface, in this frame
+    double size;                    ///< of one unit of this frame, in the base frame
     const CompiledSolid* solid;
     std::uint32_t parent;  ///< context
     std::uint32_t leaf;    ///< the instance, in the parent's solid
