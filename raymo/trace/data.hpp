@@ -33,9 +33,11 @@ inline constexpr std::uint32_t kInstanceType = static_cast<std::uint32_t>(solids
 /// normalised frame of an instanced solid).
 struct Frame {
     Mat3 to_local;
-    Vec3 row_length;      ///< lengths of the rows of to_local
-    Vec3 error;           ///< of to_local itself, over the leaf, in the leaf's frame
-    bool diagonal;        ///< to_local has nothing beside its diagonal
+    Vec3 row_length;  ///< lengths of the rows of to_local
+    Vec3 error;       ///< of to_local itself, over the leaf, in the leaf's frame
+    bool diagonal;    ///< to_local has nothing beside its diagonal
+    double
+        reach;  ///< the leaf lies within this of its centre, in its frame; infinite for one without end
     std::uint32_t type;   ///< kernel type, or kInstanceType
     std::uint32_t index;  ///< which kernel of that type, or which compiled solid
 };

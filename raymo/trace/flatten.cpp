@@ -195,6 +195,7 @@ Frame frame_of(const Affine& map, std::uint32_t type, std::uint32_t index) {
     frame.to_local = inverse(map.linear);
     frame.type = type;
     frame.index = index;
+    frame.reach = 2.0;
     const std::array<Vec3, 3>& row = frame.to_local.row;
     frame.diagonal = row[0].y == 0.0 && row[0].z == 0.0 && row[1].x == 0.0 && row[1].z == 0.0 &&
                      row[2].x == 0.0 && row[2].y == 0.0;
@@ -218,9 +219,14 @@ float float_above(double v) {
 
 void Flattener::add_leaf(Work& work, const csg::LeafNode& node, const Visit& at) {
     const Placement place = at.place.then_inner(node.solid.to_object);
-    const Frame frame = frame_of(place.map, static_cast<std::uint32_t>(node.solid.kernel.index()),
-                                 tables_.kernel(node.solid.kernel));
+    Frame frame = frame_of(place.map, static_cast<std::uint32_t>(node.solid.kernel.index()),
+                           tables_.kernel(node.solid.kernel));
+    Item item{};
+    item.box =
+        std::visit([&](const auto& kernel) { return kernel.bounds(place.map); }, node.solid.kernel);
     Pending pending{};
+    pending.endless = !item.box.bounded();
+    if (pending.endless) frame.reach = std::numeric_limits<double>::infinity();
     pending.leaf.centre = place.map.offset;
     pending.leaf.frame = tables_.frame(frame);
     const Vec3 moved = place.linear_error * Vec3{1, 1, 1} + place.offset_error;
@@ -230,10 +236,6 @@ void Flattener::add_leaf(Work& work, const csg::LeafNode& node, const Visit& at)
     pending.span = node.span;
     pending.primitive = node.primitive;
     pending.item = static_cast<std::uint32_t>(work.items.size());
-    Item item{};
-    item.box =
-        std::visit([&](const auto& kernel) { return kernel.bounds(place.map); }, node.solid.kernel);
-    pending.endless = !item.box.bounded();
     item.parent = at.item;
     item.link = static_cast<std::uint32_t>(work.pending.size());
     item.kind = Kind::leaf;

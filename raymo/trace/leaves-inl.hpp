@@ -73,7 +73,6 @@ template <int L>
 HWY_INLINE void add_uncertain(const Walker<L>& w, Lane& lane, Event enter, double exit_hi,
                               double step) {
     if (w.mode != Mode::all && (exit_hi < lane.start || enter.lo > lane.limit)) return;
-    if (!(enter.lo == enter.lo)) enter.lo = -kInfinity;
     enter.t = enter.lo;
     enter.error = step;
     enter.uncertain = true;
@@ -162,7 +161,7 @@ HWY_INLINE void add_spans(const Walker<L>& w, Lane& lane, const Frame& frame, co
     kernel.spans(local.ray, spans);
     if (spans.degenerate()) {
         // Where in the leaf is not known: anywhere the ray comes near it.
-        const double reach = 2.0 / std::sqrt(local.ray.dd);
+        const double reach = frame.reach / std::sqrt(local.ray.dd);
         add_uncertain(w, lane, event_at(at, -reach, 0.0, 0, true), at.t0 + (at.shift + reach),
                       sidestep(frame, local.place_error) * w.contexts[at.context].size);
     }
@@ -244,7 +243,7 @@ HWY_INLINE void open_leaf(Walker<8>& w, std::uint32_t context, std::uint32_t ind
                     for (std::uint32_t rest = uncertain; rest != 0; rest &= rest - 1) {
                         const int i = __builtin_ctz(rest);
                         const Placing at{c.t0[first + i], shift[i], slack[i], index, context};
-                        const double reach = 2.0 / std::sqrt(dd[i]);
+                        const double reach = frame.reach / std::sqrt(dd[i]);
                         add_uncertain(w, w.lanes[first + i], event_at(at, -reach, 0.0, 0, true),
                                       at.t0 + (at.shift + reach),
                                       sidestep(frame, place[i]) * c.size);

@@ -63,7 +63,7 @@ HWY_INLINE int spans_of(Walker<8>& w, std::uint32_t index, int first, SpanInLane
         }
     });
     trouble_lo = Lanes(kInfinity);
-    if (lane_any(trouble)) trouble_lo = local.shift - Lanes(2.0) / lane_sqrt(local.ray.dd);
+    if (lane_any(trouble)) trouble_lo = local.shift - Lanes(frame.reach) / lane_sqrt(local.ray.dd);
     return count;
 }
 
