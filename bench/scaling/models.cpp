@@ -187,18 +187,18 @@ scene::Camera camera(Vec3 eye, double angle) {
 std::span<const Family> families() {
     static constexpr std::array<std::size_t, 6> kToMillion{10,     100,     1'000,
                                                            10'000, 100'000, 1'000'000};
-    static constexpr std::array<std::size_t, 5> kToHundredThousand{10, 100, 1'000, 10'000, 100'000};
+    static constexpr std::array<std::size_t, 4> kToTenThousand{10, 100, 1'000, 10'000};
     static constexpr std::array<std::size_t, 3> kToThousand{10, 100, 1'000};
     static const std::array<Family, 5> kFamilies{
         Family{"plate", "plate with n holes", plate, camera({30, -70, 110}, 40), kToMillion},
         Family{"chain", "(((plate + stud) - dent) + stud) - ..., n deep", chain,
-               camera({30, -70, 110}, 40), kToHundredThousand},
+               camera({30, -70, 110}, 40), kToTenThousand, 4},
         Family{"rings", "plate - (disc - (disc - ...)), n deep, one inside the other", rings,
                camera({30, -70, 110}, 40), kToThousand, 4},
         Family{"hedgehog", "cube minus n rods through one point", hedgehog,
                camera({90, -130, 100}, 40), kToThousand},
         Family{"needles", "union of n long thin rods", needles, camera({90, -130, 100}, 30),
-               kToHundredThousand},
+               kToTenThousand, 4},
     };
     return kFamilies;
 }
