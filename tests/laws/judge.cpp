@@ -151,24 +151,32 @@ void judge_ray(Traced& traced, const Model& judge_model, const Ray& ray, double 
         }
         return false;
     };
+    // The tracer says how far its ends may be off; a place within that is not judged.
+    const auto judge_at = [&](double t, bool expected) {
+        for (const trace::PartSpan& span : spans) {
+            for (const trace::Hit* end : {&span.enter, &span.exit}) {
+                if (std::fabs(t - end->t) <= end->error) return;
+            }
+        }
+        judge.point(t, expected);
+    };
     for (std::size_t i = 0; i < spans.size(); ++i) {
         const double a = std::max(spans[i].enter.t, middle - half);
         const double b = std::min(spans[i].exit.t, middle + half);
         if (!(a < b)) continue;
         for (const double w : {1e-6, 0.5, 1.0 - 1e-6}) {
             const double t = a + w * (b - a);
-            if (t > a && t < b) judge.point(t, true);
+            if (t > a && t < b) judge_at(t, true);
         }
         // Just beyond the ends, and between spans.
         const double step = 1e-6 * (b - a);
-        judge.point(spans[i].enter.t - step, inside(spans[i].enter.t - step));
-        judge.point(spans[i].exit.t + step, inside(spans[i].exit.t + step));
-        if (i + 1 < spans.size())
-            judge.point(0.5 * (spans[i].exit.t + spans[i + 1].enter.t), false);
+        judge_at(spans[i].enter.t - step, inside(spans[i].enter.t - step));
+        judge_at(spans[i].exit.t + step, inside(spans[i].exit.t + step));
+        if (i + 1 < spans.size()) judge_at(0.5 * (spans[i].exit.t + spans[i + 1].enter.t), false);
     }
     for (int i = 0; i < 16; ++i) {
         const double t = middle + half * ((i + random.uniform(0, 1)) / 8.0 - 1.0);
-        judge.point(t, inside(t));
+        judge_at(t, inside(t));
     }
     judge_first(judge, spans);
 }
