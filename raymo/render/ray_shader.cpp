@@ -81,11 +81,11 @@ void RayShader::answer(std::span<const EyeRay> rays, Answer* answers) {
     eyes_ = rays;
     answers_ = answers;
     counts_.primary += rays.size();
-    std::array<RayQuery, kPacket> queries;
-    std::array<Hit, kPacket> hits;
+    std::array<RayQuery, kPacket>& queries = queries_;
+    std::array<Hit, kPacket>& hits = hits_;
     std::array<bool, kPacket> found{};
     std::array<Path, kPacket> paths;
-    for (std::size_t i = 0; i < rays.size(); ++i) queries[i].ray = rays[i].ray;
+    for (std::size_t i = 0; i < rays.size(); ++i) queries[i] = {rays[i].ray};
     tracer_.first_hits({queries.data(), rays.size()}, hits.data(), found.data());
 
     std::size_t count = 0;
@@ -119,8 +119,8 @@ void RayShader::answer(std::span<const EyeRay> rays, Answer* answers) {
 }
 
 void RayShader::follow(std::span<const Pending> rays) {
-    std::array<RayQuery, kPacket> queries;
-    std::array<Hit, kPacket> hits;
+    std::array<RayQuery, kPacket>& queries = queries_;
+    std::array<Hit, kPacket>& hits = hits_;
     std::array<bool, kPacket> found{};
     std::array<Path, kPacket> paths;
     for (std::size_t i = 0; i < rays.size(); ++i) queries[i] = rays[i].query;
@@ -242,7 +242,7 @@ void RayShader::spawn(const Hit& hit, Vec3 direction, const Path& path, Colour w
 
 void RayShader::light_directly(const Lamp& lamp, std::size_t count, const RayQuery* queries,
                                const Hit* hits, const Path* paths, Spot* spots) {
-    std::array<RayQuery, kPacket> shadows;
+    std::array<RayQuery, kPacket>& shadows = shadows_;
     std::array<Colour, kPacket> gains;
     std::array<std::size_t, kPacket> which;
     std::array<csg::MaterialId, kPacket> media;
@@ -280,7 +280,7 @@ void RayShader::light_softly(const Lamp& lamp, const RayQuery& query, const Hit&
     Arrival arrival;
     for (std::uint32_t first = 0; first < samples; first += kPacket) {
         const std::uint32_t last = std::min<std::uint32_t>(first + kPacket, samples);
-        std::array<RayQuery, kPacket> shadows;
+        std::array<RayQuery, kPacket>& shadows = shadows_;
         std::array<Colour, kPacket> gains;
         std::array<csg::MaterialId, kPacket> media;
         std::size_t rays = 0;
@@ -324,7 +324,7 @@ void RayShader::dim(std::span<const RayQuery> shadows, const csg::MaterialId* me
         }
         return;
     }
-    std::array<Hit, kPacket> hits;
+    std::array<Hit, kPacket>& hits = shadow_hits_;
     tracer_.first_hits(shadows, hits.data(), met.data());
     for (std::size_t r = 0; r < shadows.size(); ++r) {
         if (!met[r]) {

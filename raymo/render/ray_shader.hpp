@@ -132,6 +132,9 @@ private:
     std::vector<std::unique_ptr<const Surface>> surfaces_;  ///< by material, made when first seen
     std::unique_ptr<const Surface> unpainted_;
     Surface air_;
+    // Of the packet in hand, kept from one to the next: they are large.
+    std::array<trace::RayQuery, kPacket> queries_, shadows_;
+    std::array<trace::Hit, kPacket> hits_, shadow_hits_;
     std::vector<Pending> pending_;  ///< rays of the next wave
     std::vector<Pending> wave_;
     std::array<Colour, kPacket> brought_{};  ///< by shade(), for each of its hits

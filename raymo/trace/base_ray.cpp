@@ -5,7 +5,7 @@
 namespace raymo::trace {
 namespace {
 
-/// a + b = sum + rest, exactly [Knuth].
+/// a + b = sum + rest, exactly [Knuth97 4.2.2].
 struct Sum {
     double sum, rest;
 };

@@ -1,6 +1,29 @@
 // A packet of rays brought into the frame of the base solid; included by walk.cpp once per instruction set, inside
 // HWY_NAMESPACE. Does for eight rays what base_ray (base_ray.hpp) does for one, with equal bits.
 
+struct SumInLanes {
+    Lanes sum, rest;
+};
+/// a + b = sum + rest, exactly [Knuth97 4.2.2].
+HWY_INLINE SumInLanes two_sum(Lanes a, Lanes b) {
+    const Lanes s = a + b;
+    const Lanes bb = s - a;
+    return {s, (a - (s - bb)) + (b - bb)};
+}
+/// a * b = sum + rest, exactly [Dekker71], while nothing overflows: what a fused multiplication gives, where there is none.
+HWY_INLINE SumInLanes two_product(Lanes a, Lanes b) {
+    const Lanes splitter(134217729.0);  // 2^27 + 1
+    const Lanes ca = splitter * a;
+    const Lanes cb = splitter * b;
+    const Lanes a1 = ca - (ca - a);
+    const Lanes b1 = cb - (cb - b);
+    const Lanes a2 = a - a1;
+    const Lanes b2 = b - b1;
+    const Lanes p = a * b;
+    return {p, ((a1 * b1 - p) + a1 * b2 + a2 * b1) + a2 * b2};
+}
+
+/// Rays from further away than Dekker's product can bear are left to base_ray.
 HWY_INLINE void prepare_packet(Walker<8>& w, const RayQuery* queries, int count) {
     Context<8>& c = w.contexts[0];
     const CompiledSolid& base = *c.solid;
@@ -15,29 +38,54 @@ HWY_INLINE void prepare_packet(Walker<8>& w, const RayQuery* queries, int count)
         start_error[i] = q.start_error;
         t_max[i] = q.t_max;
     }
-    std::uint32_t far_rays = 0;
+    std::uint32_t very_far = 0;
     const Lanes scale(base.scale);
     for (int first = 0; first < 8; first += kLanes) {
         const Lanes unit = load(unit_scale + first);
         Lanes far(0.0);
+        Lanes place[3], low[3], along[3];
         for (int a = 0; a < 3; ++a) {
-            const Lanes place = (load(o[a] + first) + Lanes(-base.centre[a])) * scale;
-            far = lane_max(far, lane_abs(place));
-            store(place, c.o[a] + first);
-            store(load(d[a] + first) * unit, c.d[a] + first);
+            const SumInLanes sum = two_sum(load(o[a] + first), Lanes(-base.centre[a]));
+            place[a] = sum.sum * scale;
+            low[a] = sum.rest * scale;
+            along[a] = load(d[a] + first) * unit;
+            far = lane_max(far, lane_abs(place[a]));
+        }
+        Lanes error = Lanes(4.0 * kUnitRoundoff) * lane_min(far, Lanes(kFarOrigin));
+        Lanes shift(0.0);
+        const Mask moves = far > Lanes(kFarOrigin);
+        if (lane_any(moves)) {
+            const auto dot = [](const Lanes* u, const Lanes* v) {
+                return u[0] * v[0] + u[1] * v[1] + u[2] * v[2];
+            };
+            shift = lane_select(moves, (Lanes(0.0) - dot(place, along)) / dot(along, along), shift);
+            Lanes size(0.0);
+            for (int a = 0; a < 3; ++a) {
+                const SumInLanes product = two_product(shift, along[a]);
+                const SumInLanes sum = two_sum(place[a], product.sum);
+                const Lanes moved = sum.sum + (sum.rest + (product.rest + low[a]));
+                place[a] = lane_select(moves, moved, place[a]);
+                size = lane_max(size, lane_abs(place[a]));
+            }
+            const Lanes more = Lanes(8.0 * kUnitRoundoff) * (size + Lanes(kUnitRoundoff) * far);
+            error = lane_select(moves, error + more, error);
+        }
+        for (int a = 0; a < 3; ++a) {
+            store(place[a], c.o[a] + first);
+            store(along[a], c.d[a] + first);
         }
         const Lanes t_per_s = unit / scale;
         store(t_per_s, n.t_per_s + first);
-        store(Lanes(0.0), n.shift + first);
-        store(Lanes(0.0), n.start + first);
-        store(load(t_max + first) / t_per_s, n.limit + first);
-        store(Lanes(4.0 * kUnitRoundoff) * lane_min(far, Lanes(kFarOrigin)), c.error + first);
+        store(shift, n.shift + first);
+        store(Lanes(0.0) - shift, n.start + first);
+        store(load(t_max + first) / t_per_s - shift, n.limit + first);
+        store(error, c.error + first);
         store(load(start_error + first) * scale, c.start_error + first);
         store(Lanes(0.0), c.t0 + first);
-        far_rays |= bits(far > Lanes(kFarOrigin)) << first;
+        very_far |= bits(lane_not(far <= Lanes(0x1p+400))) << first;
     }
-    for (; far_rays != 0; far_rays &= far_rays - 1) {
-        const int i = __builtin_ctz(far_rays);
+    for (; very_far != 0; very_far &= very_far - 1) {
+        const int i = __builtin_ctz(very_far);
         const RayQuery& q = queries[i < count ? i : count - 1];
         const BaseRay ray = base_ray(base, q);
         for (int a = 0; a < 3; ++a) c.o[a][i] = ray.o[a];
