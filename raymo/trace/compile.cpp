@@ -9,7 +9,7 @@ namespace raymo::trace {
 namespace {
 
 /// Up to this many leaves a model is flattened; beyond, shared solids become instances.
-constexpr double kFlattenLeaves = 2e6;
+constexpr double kFlattenLeaves = 2.5e5;
 /// More leaves than rays can tell apart; such a model is a mistake (a doubling in a loop), not a
 /// design.
 constexpr double kMostLeaves = 1e15;

@@ -33,12 +33,12 @@ inline constexpr std::uint32_t kInstanceType = static_cast<std::uint32_t>(solids
 /// normalised frame of an instanced solid).
 struct Frame {
     Mat3 to_local;
-    Vec3 row_length;  ///< lengths of the rows of to_local
-    Vec3 error;       ///< of to_local itself, over the leaf, in the leaf's frame
-    bool diagonal;    ///< to_local has nothing beside its diagonal
-    double
-        reach;  ///< the leaf lies within this of its centre, in its frame; infinite for one without end
-    std::uint32_t type;   ///< kernel type, or kInstanceType
+    Vec3 row_length;     ///< lengths of the rows of to_local
+    Vec3 error;          ///< of to_local itself, over the leaf, in the leaf's frame
+    bool diagonal;       ///< to_local has nothing beside its diagonal
+    double reach;        ///< the leaf lies within this of its centre, in its frame; may be infinite
+    double stretch;      ///< by how much to_local lengthens at most, in lengths of its longest row
+    std::uint32_t type;  ///< kernel type, or kInstanceType
     std::uint32_t index;  ///< which kernel of that type, or which compiled solid
 };
 
@@ -81,6 +81,7 @@ struct Group {
     std::uint32_t parent = kNone;  ///< group; kNone: this is the root of part number `own index`
     std::int32_t initial = 0;      ///< literals that are true where all leaves are out
     bool negated = false;          ///< as a literal of the parent
+    bool taken_away = false;       ///< an odd number of negations from the root
 };
 
 /// One solid (or, for the base of the scene, all parts side by side) made ready for rays.

@@ -26,6 +26,8 @@ enum class Kind : std::uint8_t { leaf, unite, intersect, subtract };
 /// An instance pays from this many leaves on; deeper nesting than kMaxDepth is flattened.
 constexpr double kShareLeaves = 64.0;
 constexpr int kMaxDepth = 40;
+/// In the place of a compiled solid: it reaches to infinity, so only its surroundings can cut it to size.
+constexpr std::uint32_t kUnbounded = kNone - 1;
 
 }  // namespace
 
@@ -39,9 +41,10 @@ struct Flattener::Item {
 };
 
 struct Flattener::Pending {
-    Leaf leaf;           ///< centre and displacement in the model frame until normalised
-    float linear_error;  ///< of the placement
-    bool endless;        ///< the leaf alone reaches to infinity
+    Leaf leaf;            ///< centre in the model frame until normalised
+    double displacement;  ///< of the leaf, in the model frame
+    double linear_error;  ///< of the placement
+    bool endless;         ///< the leaf alone reaches to infinity
     csg::MaterialId material;
     SourceSpan span;
     std::uint32_t primitive;
@@ -121,8 +124,10 @@ Result<void> Flattener::expand(Work& work, std::span<const csg::Solid> parts, in
 
     // Goes down from `at` through transformations and paint to a leaf, an instance or a boolean.
     const auto descend = [&](Visit at) -> Result<void> {
+        bool shared = false;
         while (true) {
             const csg::Node& node = at.solid->node();
+            shared = shared || node.references.load(std::memory_order_relaxed) > 1;
             if (node.kind == csg::NodeKind::transform) {
                 const auto& t = csg::as_transform(node);
                 at.place = at.place.then_inner(t.map);
@@ -137,13 +142,11 @@ Result<void> Flattener::expand(Work& work, std::span<const csg::Solid> parts, in
         }
         const csg::Node& node = at.solid->node();
         if (node.kind == csg::NodeKind::leaf) {
-            add_leaf(work, csg::as_leaf(node), at);
-            return {};
+            return add_leaf(work, csg::as_leaf(node), at);
         }
         // What a lone part consists of would only be wrapped once more.
         const bool whole = parts.size() == 1 && at.item == 0;
-        if (share_ && !whole && depth < kMaxDepth && node.leaf_count >= kShareLeaves &&
-            node.references.load(std::memory_order_relaxed) > 1) {
+        if (share_ && !whole && depth < kMaxDepth && node.leaf_count >= kShareLeaves && shared) {
             auto added = add_instance(work, at, depth);
             if (!added) return Failure(std::move(added).error());
             if (*added) return {};
@@ -189,24 +192,77 @@ Result<void> Flattener::expand(Work& work, std::span<const csg::Solid> parts, in
 
 namespace {
 
+/// The inverse, with one step of Newton's method X + X (I - A X) against the cancellation in the cofactors of maps that
+/// stretch very differently along oblique axes [Higham02 14.1].
+Mat3 refined_inverse(const Mat3& a) {
+    const Mat3 x = inverse(a);
+    Mat3 out;
+    for (std::size_t i = 0; i < 3; ++i) {
+        for (int j = 0; j < 3; ++j) {
+            long double sum = x.row[i][j];
+            for (int k = 0; k < 3; ++k) {
+                long double rest = k == j ? 1 : 0;  // (I - A X) at row k, column j
+                for (int l = 0; l < 3; ++l) {
+                    rest -= static_cast<long double>(a.row[static_cast<std::size_t>(k)][l]) *
+                            x.row[static_cast<std::size_t>(l)][j];
+                }
+                sum += static_cast<long double>(x.row[i][k]) * rest;
+            }
+            out.row[i][j] = static_cast<double>(sum);
+        }
+    }
+    return out;
+}
+
 /// The frame of a leaf whose canonical frame is placed by `map`, in the model's scale.
 Frame frame_of(const Affine& map, std::uint32_t type, std::uint32_t index) {
     Frame frame{};
-    frame.to_local = inverse(map.linear);
+    frame.to_local = refined_inverse(map.linear);
     frame.type = type;
     frame.index = index;
     frame.reach = 2.0;
     const std::array<Vec3, 3>& row = frame.to_local.row;
     frame.diagonal = row[0].y == 0.0 && row[0].z == 0.0 && row[1].x == 0.0 && row[1].z == 0.0 &&
                      row[2].x == 0.0 && row[2].y == 0.0;
-    // Rounding of the inverse, seen from the leaf: |to_local| |map| is 1 for orthogonal axes and
-    // grows with skew.
-    const Mat3 spread = abs(frame.to_local) * abs(map.linear);
-    for (int i = 0; i < 3; ++i) {
-        const Vec3 sums = spread.row[static_cast<std::size_t>(i)];
-        frame.error[i] = 8.0 * kUnitRoundoff * (sums.x + sums.y + sums.z);
+    // How far the map is from the true inverse, seen from the leaf: the residual I - X A, summed up by rows.
+    using Long = long double;
+    constexpr Long kLong = std::numeric_limits<Long>::epsilon();
+    for (std::size_t r = 0; r < 3; ++r) {
+        Long sum = 0;
+        for (int c = 0; c < 3; ++c) {
+            Long entry = static_cast<int>(r) == c ? 1 : 0;
+            Long size = 0;
+            for (int k = 0; k < 3; ++k) {
+                const Long product =
+                    static_cast<Long>(row[r][k]) * map.linear.row[static_cast<std::size_t>(k)][c];
+                entry -= product;
+                size += std::fabs(product);
+            }
+            sum += std::fabs(entry) + 4 * kLong * size;
+        }
+        frame.error[static_cast<int>(r)] = 2.0 * static_cast<double>(sum) + 8.0 * kUnitRoundoff;
     }
+    // The greatest stretch is that of a row when the rows are orthogonal; the root of the sum of squares is a bound.
+    const double long_row = std::max({norm(row[0]), norm(row[1]), norm(row[2])});
+    const auto orthogonal = [&](std::size_t a, std::size_t b) {
+        return std::fabs(dot(row[a] / long_row, row[b] / long_row)) <= 0x1p-40;
+    };
+    frame.stretch =
+        orthogonal(0, 1) && orthogonal(1, 2) && orthogonal(2, 0)
+            ? 1.0
+            : norm({norm(row[0]) / long_row, norm(row[1]) / long_row, norm(row[2]) / long_row});
     return frame;
+}
+
+/// Whether a leaf can be computed with there: squares of its sizes neither overflow nor vanish.
+bool is_placeable(const Affine& map) {
+    if (!is_invertible(map.linear) || !is_finite(map.offset) || max_norm(map.offset) > 1e90)
+        return false;
+    for (int j = 0; j < 3; ++j) {
+        const double size = norm(map.linear.column(j));
+        if (!(size >= 1e-90 && size <= 1e90)) return false;
+    }
+    return true;
 }
 
 float float_above(double v) {
@@ -217,8 +273,16 @@ float float_above(double v) {
 
 }  // namespace
 
-void Flattener::add_leaf(Work& work, const csg::LeafNode& node, const Visit& at) {
+Result<void> Flattener::add_leaf(Work& work, const csg::LeafNode& node, const Visit& at) {
     const Placement place = at.place.then_inner(node.solid.to_object);
+    if (!is_placeable(place.map)) {
+        const std::string_view name = solids::inventory()[node.primitive].schema->name;
+        return Failure(
+            Error{ErrorCode::singular,
+                  std::string(name) + ": its transformations together leave no usable size",
+                  "this becomes too small, too large or flat", "keep sizes between 1e-90 and 1e90",
+                  -1, node.span});
+    }
     Frame frame = frame_of(place.map, static_cast<std::uint32_t>(node.solid.kernel.index()),
                            tables_.kernel(node.solid.kernel));
     Item item{};
@@ -230,8 +294,8 @@ void Flattener::add_leaf(Work& work, const csg::LeafNode& node, const Visit& at)
     pending.leaf.centre = place.map.offset;
     pending.leaf.frame = tables_.frame(frame);
     const Vec3 moved = place.linear_error * Vec3{1, 1, 1} + place.offset_error;
-    pending.leaf.displacement = float_above(norm(moved));
-    pending.linear_error = float_above(norm(place.linear_error * Vec3{1, 1, 1}));
+    pending.displacement = norm(moved);
+    pending.linear_error = norm(place.linear_error * Vec3{1, 1, 1});
     pending.material = at.material;
     pending.span = node.span;
     pending.primitive = node.primitive;
@@ -242,6 +306,7 @@ void Flattener::add_leaf(Work& work, const csg::LeafNode& node, const Visit& at)
     item.subtracted = at.subtracted;
     work.items.push_back(item);
     work.pending.push_back(pending);
+    return {};
 }
 
 Result<bool> Flattener::add_instance(Work& work, const Visit& at, int depth) {
@@ -249,6 +314,7 @@ Result<bool> Flattener::add_instance(Work& work, const Visit& at, int depth) {
     std::uint32_t index = kNone;
     if (const auto known = compiled_.find(&node); known != compiled_.end()) {
         index = known->second;
+        if (index == kUnbounded) return false;
     } else {
         Flattener inner(data_, share_, progress_);
         inner.compiled_ = std::move(compiled_);
@@ -257,7 +323,10 @@ Result<bool> Flattener::add_instance(Work& work, const Visit& at, int depth) {
         if (!made) {
             // A solid without end may still be cut to size by its surroundings, which only
             // flattening sees.
-            if (made.error().code == ErrorCode::unbounded) return false;
+            if (made.error().code == ErrorCode::unbounded) {
+                compiled_.emplace(&node, kUnbounded);
+                return false;
+            }
             return Failure(std::move(made).error());
         }
         index = *made;
@@ -279,7 +348,7 @@ Result<bool> Flattener::add_instance(Work& work, const Visit& at, int depth) {
     pending.leaf.centre = place.map.offset;
     pending.leaf.frame = tables_.frame(frame_of(place.map, kInstanceType, index));
     const Vec3 moved = place.linear_error * Vec3{1, 1, 1} + place.offset_error;
-    pending.leaf.displacement = float_above(norm(moved));
+    pending.displacement = norm(moved);
     pending.material = at.material;
     pending.span = node.span;
     pending.item = static_cast<std::uint32_t>(work.items.size());
@@ -304,8 +373,9 @@ void Flattener::combine_boxes(Work& work) const {
         const Item& item = items[i];
         if (item.parent == kNone || item.subtracted) continue;
         Item& parent = items[item.parent];
-        parent.box =
-            parent.kind == Kind::unite ? hull(parent.box, item.box) : overlap(parent.box, item.box);
+        parent.box = parent.kind == Kind::unite
+                         ? (item.box.empty() ? parent.box : hull(parent.box, item.box))
+                         : overlap(parent.box, item.box);
     }
     for (Item& item : items) {
         if (item.parent != kNone) item.box = overlap(item.box, items[item.parent].box);
@@ -327,13 +397,10 @@ Result<void> Flattener::check_bounded(const Work& work) const {
 }
 
 void Flattener::make_groups(Work& work, CompiledSolid& out) {
-    std::vector<bool>
-        taken_away;  // by group: an even number of negations to the root, or an odd one
     for (Item& item : work.items) {
         if (item.parent == kNone) {
             item.link = static_cast<std::uint32_t>(out.groups.size());
             out.groups.push_back({});
-            taken_away.push_back(false);
         }
     }
     for (Item& item : work.items) {
@@ -350,7 +417,7 @@ void Flattener::make_groups(Work& work, CompiledSolid& out) {
             look.primitive = pending.primitive;
             look.span = pending.span;
             look.literal_negated = negated;
-            look.cuts = taken_away[group] != negated;
+            look.cuts = out.groups[group].taken_away != negated;
             look.borrows = look.cuts && look.material == csg::kNoMaterial;
             pending.leaf.look = tables_.look(look);
             continue;
@@ -364,8 +431,7 @@ void Flattener::make_groups(Work& work, CompiledSolid& out) {
             continue;
         }
         item.link = static_cast<std::uint32_t>(out.groups.size());
-        out.groups.push_back({group, 0, true});
-        taken_away.push_back(!taken_away[group]);
+        out.groups.push_back({group, 0, true, !out.groups[group].taken_away});
     }
     for (std::size_t g = out.groups.size(); g-- > out.parts;) {
         const Group& group = out.groups[g];
@@ -408,13 +474,12 @@ void Flattener::normalise(Work& work, CompiledSolid& out) {
         ++order;
         if (clip.empty()) continue;
         Leaf leaf = pending.leaf;
-        double displacement = leaf.displacement;
+        double displacement = pending.displacement;
         // Rounding of the subtraction below; an endless leaf errs by its placement's tilt over the
         // whole model.
         displacement += 2.0 * kUnitRoundoff * (norm(leaf.centre) + norm(out.centre));
         if (pending.endless) {
-            displacement +=
-                2.0 * radius * (static_cast<double>(pending.linear_error) + 16.0 * kUnitRoundoff);
+            displacement += 2.0 * radius * (pending.linear_error + 16.0 * kUnitRoundoff);
         }
         leaf.frame += first_frame;
         leaf.centre = (leaf.centre - out.centre) * out.scale;

@@ -30,7 +30,7 @@ private:
 
     [[nodiscard]] Result<void> expand(Work& work, std::span<const csg::Solid> parts, int depth);
     [[nodiscard]] Result<bool> add_instance(Work& work, const Visit& at, int depth);
-    void add_leaf(Work& work, const csg::LeafNode& node, const Visit& at);
+    [[nodiscard]] Result<void> add_leaf(Work& work, const csg::LeafNode& node, const Visit& at);
     void combine_boxes(Work& work) const;
     [[nodiscard]] Result<void> check_bounded(const Work& work) const;
     void make_groups(Work& work, CompiledSolid& out);

@@ -96,6 +96,7 @@ void open_instance(Walker<L>& w, std::uint32_t parent, std::uint32_t leaf_index,
     to.path = (from.path * 0x01000193U) ^ (from.solid->first_leaf + leaf_index + 1);
     to.cuts = from.cuts != look.cuts;
     to.material = look.material != csg::kNoMaterial ? look.material : from.material;
+    const double stretch = frame.stretch * max_norm(frame.row_length) * (1.0 + 0x1p-30);
     to.size = from.size / max_norm(frame.row_length);
     double nearest = kInfinity;
     for (int i = 0; i < L; ++i) {
@@ -104,8 +105,8 @@ void open_instance(Walker<L>& w, std::uint32_t parent, std::uint32_t leaf_index,
         const double o[3] = {r.ox, r.oy, r.oz};
         const double d[3] = {r.dx, r.dy, r.dz};
         to.t0[i] = from.t0[i] + l.shift;
-        to.start_error[i] = from.start_error[i] * max_norm(frame.row_length);
-        to.error[i] = std::sqrt(r.ex * r.ex + r.ey * r.ey + r.ez * r.ez);
+        to.start_error[i] = from.start_error[i] * stretch;
+        to.error[i] = stretch * l.place_error + norm(frame.error);
         for (int a = 0; a < 3; ++a) {
             to.o[a][i] = o[a];
             to.d[a][i] = d[a];

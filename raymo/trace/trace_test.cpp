@@ -253,7 +253,7 @@ TEST_CASE("trace: a solid without end is an error that names it; cut to size it 
 }
 
 TEST_CASE("trace: shared solids become instances that answer like copies") {
-    // 2 * 128^3 leaves: more than are flattened.
+    // 2 * 128^3 leaves: far more than are flattened.
     Solid s = join(sphere(0.3), moved(block({0.2, 0.2, 0.2}), {0.3, 0, 0}));
     for (int axis = 0; axis < 3; ++axis) {
         std::vector<Solid> row;
@@ -282,6 +282,84 @@ TEST_CASE("trace: shared solids become instances that answer like copies") {
     CHECK(hit.t == doctest::Approx(0.7).epsilon(1e-12));
     CHECK(tracer.leaf_info(hit.surface).primitive == "sphere");
     CHECK(hit.normal.x == doctest::Approx(-1.0));
+}
+
+TEST_CASE("trace: instances in instances keep their surfaces") {
+    Solid s = sphere(1.0);
+    for (int i = 0; i < 30; ++i) s = join(s, moved(s, {std::ldexp(3.0, i), 0, 0}));
+    const auto compiled = compile(scene_of({s}));
+    REQUIRE(compiled.has_value());
+    Tracer tracer(*compiled);
+    for (const double k : {0.0, 1.0, 12345.0, 1048576.0 * 512.0}) {
+        RayQuery query;
+        query.ray = {{3.0 * k, -10, 0}, {0, 1, 0}};
+        Hit hit;
+        REQUIRE(tracer.first_hit(query, hit));
+        CHECK(hit.t == doctest::Approx(9.0).epsilon(1e-6));
+    }
+}
+
+TEST_CASE("trace: a cutter where nothing is to be cut does not show") {
+    scene::Scene scene;
+    scene.materials.resize(2);
+    const Solid cap =
+        cut(moved(sphere(10), {0, 0, 5}), csg::paint(moved(block({18, 18, 15}), {-9, -9, 0}), 0));
+    const Solid base = csg::paint(moved(block({40, 40, 5}), {-20, -20, -5}), 1);
+    scene.parts.push_back({"p", join(cap, base), {}});
+    const auto compiled = compile(scene);
+    REQUIRE(compiled.has_value());
+    Tracer tracer(*compiled);
+    std::vector<std::vector<PartSpan>> spans;
+    tracer.spans({{8.5, 8.5, 50}, {0, 0, -1}}, spans);
+    REQUIRE(!spans[0].empty());
+    CHECK(spans[0].back().enter.material == 1);
+    CHECK(spans[0].back().enter.t == doctest::Approx(50.0));
+}
+
+TEST_CASE("trace: a cutter borrows only from what it cuts") {
+    scene::Scene scene;
+    scene.materials.resize(1);
+    const Solid red = meet(csg::paint(moved(block({30, 30, 2}), {-15, -15, -1}), 0),
+                           primitive("torus", {10.0, 1.0}));
+    const Solid pocket =
+        cut(moved(block({4, 4, 2}), {-2, -2, -1}), moved(block({2, 2, 2}), {-1, -1, 0}));
+    scene.parts.push_back({"p", join(red, pocket), {}});
+    const auto compiled = compile(scene);
+    REQUIRE(compiled.has_value());
+    Tracer tracer(*compiled);
+    std::vector<std::vector<PartSpan>> spans;
+    tracer.spans({{0.3, 0.2, 50}, {0, 0, -1}}, spans);
+    REQUIRE(spans[0].size() == 1);
+    CHECK(spans[0][0].enter.t == doctest::Approx(50.0));
+    CHECK(spans[0][0].enter.material == csg::kNoMaterial);
+}
+
+TEST_CASE("trace: maps that stretch along oblique axes keep coincident faces together") {
+    const auto body = [&](bool detour) {
+        Solid s =
+            turned(turned(moved(block({10, 10, 10}), {-5, -5, -5}), {1, 0, 0}, 30), {0, 1, 0}, 40);
+        if (detour) s = turned(turned(s, {0, 0, 1}, 17), {0, 0, 1}, -17);
+        s = csg::transform(s, scaling({1, 1e-5, 1e-5})).value();
+        return turned(turned(s, {1, 0, 0}, 20), {0, 1, 0}, 50);
+    };
+    const auto compiled = compile(scene_of({cut(body(false), body(true))}));
+    REQUIRE(compiled.has_value());
+    Tracer tracer(*compiled);
+    std::mt19937_64 random(5);
+    std::uniform_real_distribution<double> uniform(-5, 5);
+    std::vector<std::vector<PartSpan>> spans;
+    for (int i = 0; i < 2000; ++i) {
+        const Vec3 aim{uniform(random) * 0.5, 0, uniform(random) * -0.5};
+        tracer.spans({{uniform(random), uniform(random), 50}, aim - Vec3{0, 0, 50}}, spans);
+        CHECK(spans[0].empty());
+    }
+}
+
+TEST_CASE("trace: transformations that together leave no size are an error") {
+    const Solid thin = csg::transform(block({10, 10, 10}), scaling({1, 1, 1e-60})).value();
+    const auto gone = compile(scene_of({csg::transform(thin, scaling({1, 1, 1e-60})).value()}));
+    REQUIRE(!gone.has_value());
+    CHECK(gone.error().code == ErrorCode::singular);
 }
 
 TEST_CASE("trace: a cutter without material shows what it cuts") {

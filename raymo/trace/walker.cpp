@@ -18,6 +18,12 @@ void Walker<L>::flip(int lane, const Event& event) {
         count += literal ? 1 : -1;
         const bool after = count > 0;
         if (before == after) return;
+        const auto known_group = [&](const Turned& t) {
+            return t.group == group && t.context == context;
+        };
+        if (std::find_if(turned_.begin(), turned_.end(), known_group) == turned_.end()) {
+            turned_.push_back({context, group, before});
+        }
         if (g.parent != kNone) {
             literal = after != g.negated;
             group = g.parent;
@@ -71,49 +77,101 @@ void Walker<L>::finish(int index) {
 }
 
 template <int L>
+bool Walker<L>::climb(std::uint32_t& context, std::uint32_t& group) const {
+    const Group& g = contexts[context].solid->groups[group];
+    if (g.parent != kNone) {
+        group = g.parent;
+        return true;
+    }
+    if (context == 0) return false;
+    const Context<L>& c = contexts[context];
+    group = contexts[c.parent].solid->leaves[c.leaf].parent;
+    context = c.parent;
+    return true;
+}
+
+template <int L>
 std::uint32_t Walker<L>::part_of(const Event& event) const {
     std::uint32_t context = event.context;
     std::uint32_t group = leaf_of(event).parent;
-    while (true) {
-        const Group& g = contexts[context].solid->groups[group];
-        if (g.parent != kNone) {
-            group = g.parent;
-        } else if (context != 0) {
-            const Context<L>& c = contexts[context];
-            group = contexts[c.parent].solid->leaves[c.leaf].parent;
-            context = c.parent;
-        } else {
-            return group;
-        }
+    while (climb(context, group)) {
     }
+    return group;
 }
 
-/// Of the events of the cluster that can have made the change, the one that stands leftmost in the
-/// model.
+/// Whether the event's leaf stands below a group.
 template <int L>
-const Event& Walker<L>::shown_by(const Lane& lane, std::size_t end, const Change& change) const {
+bool Walker<L>::below(const Event& event, std::uint32_t context, std::uint32_t group) const {
+    std::uint32_t c = event.context;
+    std::uint32_t g = leaf_of(event).parent;
+    do {
+        if (c == context && g == group) return true;
+    } while (climb(c, g));
+    return false;
+}
+
+/// Whether all groups above the event's leaf have another value after the cluster than before, so that the leaf had a
+/// part in the change.
+template <int L>
+bool Walker<L>::turned(int lane, const Event& event) {
+    std::uint32_t context = event.context;
+    std::uint32_t group = leaf_of(event).parent;
+    do {
+        const auto same = [&](const Turned& t) { return t.group == group && t.context == context; };
+        const auto known = std::find_if(turned_.begin(), turned_.end(), same);
+        if (known == turned_.end()) return false;
+        const Group& g = contexts[context].solid->groups[group];
+        const bool now = counters.find(context, group, g.initial)[lane] > 0;
+        if (now == known->before) return false;
+    } while (climb(context, group));
+    return true;
+}
+
+/// Whether a's leaf stands left of b's in the model: by the places of leaf and instances where their paths part.
+template <int L>
+bool Walker<L>::left_of(const Event& a, const Event& b) const {
+    const auto depth = [&](std::uint32_t context) {
+        int d = 0;
+        for (; context != 0; context = contexts[context].parent) ++d;
+        return d;
+    };
+    std::uint32_t ca = a.context;
+    std::uint32_t cb = b.context;
+    std::uint32_t oa = leaf_of(a).order;
+    std::uint32_t ob = leaf_of(b).order;
+    const auto up = [&](std::uint32_t& context, std::uint32_t& order) {
+        const Context<L>& c = contexts[context];
+        order = contexts[c.parent].solid->leaves[c.leaf].order;
+        context = c.parent;
+    };
+    int da = depth(ca);
+    int db = depth(cb);
+    for (; da > db; --da) up(ca, oa);
+    for (; db > da; --db) up(cb, ob);
+    while (ca != cb) {
+        up(ca, oa);
+        up(cb, ob);
+    }
+    return oa < ob;
+}
+
+/// Of the events of the cluster that have made the change, the one that stands leftmost in the model.
+template <int L>
+const Event& Walker<L>::shown_by(int index, std::size_t end, const Change& change) {
+    const Lane& lane = lanes[index];
     const Event* best = nullptr;
-    std::uint64_t best_order = 0;
+    const Event* any = nullptr;
     for (std::size_t i = lane.head; i < end; ++i) {
         const Event& event = lane.events[i];
         if (event.uncertain) continue;
-        const Leaf& leaf = leaf_of(event);
-        const bool cuts = data->looks[leaf.look].cuts != contexts[event.context].cuts;
+        if (any == nullptr) any = &event;
+        const bool cuts = data->looks[leaf_of(event).look].cuts != contexts[event.context].cuts;
         if ((event.enter != cuts) != change.inside) continue;
         if (changes_.size() > 1 && part_of(event) != change.part) continue;
-        std::uint64_t order = leaf.order;
-        for (std::uint32_t c = event.context; c != 0; c = contexts[c].parent) {
-            order =
-                (order & 0xffffffU) |
-                (std::uint64_t{contexts[contexts[c].parent].solid->leaves[contexts[c].leaf].order}
-                 << 24);
-        }
-        if (best == nullptr || order < best_order) {
-            best = &event;
-            best_order = order;
-        }
+        if (end - lane.head > 1 && !turned(index, event)) continue;
+        if (best == nullptr || left_of(event, *best)) best = &event;
     }
-    return best != nullptr ? *best : lane.events[lane.head];
+    return best != nullptr ? *best : *any;
 }
 
 /// A leaf's own material, else that of its instance; a cutter without one shows what it cuts.
@@ -125,19 +183,23 @@ csg::MaterialId Walker<L>::material_of(const Lane& lane, const Event& event,
     if (contexts[event.context].material != csg::kNoMaterial)
         return contexts[event.context].material;
     if (look.cuts == contexts[event.context].cuts) return csg::kNoMaterial;
-    // The leftmost leaf of the same part that the ray is in here, and that has a material.
-    const std::uint32_t part = part_of(event);
-    csg::MaterialId best = csg::kNoMaterial;
-    std::uint32_t best_order = kNone;
+    // The group that the cutter is taken from: the nearest above it that turns things inside out.
+    std::uint32_t context = event.context;
+    std::uint32_t group = leaf_of(event).parent;
+    while (contexts[context].solid->groups[group].taken_away == contexts[context].cuts) {
+        if (!climb(context, group)) return csg::kNoMaterial;
+    }
+    // Of what is left of it, the leftmost leaf that the ray is in here, and that has a material.
+    const Event* best = nullptr;
+    csg::MaterialId found = csg::kNoMaterial;
     for (std::size_t i = 0; i < end; ++i) {
         const Event& e = lane.events[i];
         if (e.uncertain || !e.enter) continue;
-        const Leaf& leaf = leaf_of(e);
-        const Look& other = data->looks[leaf.look];
+        const Look& other = data->looks[leaf_of(e).look];
         const csg::MaterialId material =
             other.material != csg::kNoMaterial ? other.material : contexts[e.context].material;
         if (material == csg::kNoMaterial || other.cuts != contexts[e.context].cuts ||
-            leaf.order >= best_order || part_of(e) != part) {
+            !below(e, context, group) || (best != nullptr && !left_of(e, *best))) {
             continue;
         }
         // Left again before this place?
@@ -148,10 +210,10 @@ csg::MaterialId Walker<L>::material_of(const Lane& lane, const Event& event,
                    (k < lane.head || event.enter);
         }
         if (left) continue;
-        best = material;
-        best_order = leaf.order;
+        best = &e;
+        found = material;
     }
-    return best;
+    return found;
 }
 
 template <int L>
@@ -159,6 +221,7 @@ void Walker<L>::settle(int index, std::size_t end) {
     Lane& lane = lanes[index];
     bool at_start = false;
     changes_.clear();
+    turned_.clear();
     for (std::size_t i = lane.head; i < end; ++i) {
         const Event& event = lane.events[i];
         if (event.uncertain) {
@@ -187,13 +250,13 @@ void Walker<L>::settle(int index, std::size_t end) {
     for (const bool entering : {false, true}) {
         for (const Change& change : changes_) {
             if (change.inside != entering) continue;
-            const Event& by = shown_by(lane, end, change);
+            const Event& by = shown_by(index, end, change);
             const Crossing crossing{by,     change.part, entering, material_of(lane, by, end),
                                     before, before};
             if (lane.crossings.size() > first) {
                 const Crossing& best = lane.crossings[shown];
                 if (entering > best.entering ||
-                    (entering == best.entering && leaf_of(by).order < leaf_of(best.event).order)) {
+                    (entering == best.entering && left_of(by, best.event))) {
                     shown = lane.crossings.size();
                 }
             }

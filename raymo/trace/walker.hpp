@@ -238,18 +238,30 @@ private:
         std::uint32_t part;
         bool inside;
     };
+    /// A group whose value changed within the cluster in hand, and may have changed back.
+    struct Turned {
+        std::uint32_t context;
+        std::uint32_t group;
+        bool before;
+    };
     void flip(int lane, const Event& event);
     void settle(int lane, std::size_t end);
     [[nodiscard]] bool is_opaque(csg::MaterialId m) const {
         return m >= data->materials.size() || !(data->materials[m].transmission > 0.0);
     }
-    [[nodiscard]] const Event& shown_by(const Lane& lane, std::size_t end,
-                                        const Change& change) const;
+    [[nodiscard]] const Event& shown_by(int lane, std::size_t end, const Change& change);
     [[nodiscard]] std::uint32_t part_of(const Event& event) const;
     [[nodiscard]] csg::MaterialId material_of(const Lane& lane, const Event& event,
                                               std::size_t end) const;
 
+    /// The group above a group or instance; false at the root of a part.
+    [[nodiscard]] bool climb(std::uint32_t& context, std::uint32_t& group) const;
+    [[nodiscard]] bool turned(int lane, const Event& event);
+    [[nodiscard]] bool below(const Event& event, std::uint32_t context, std::uint32_t group) const;
+    [[nodiscard]] bool left_of(const Event& a, const Event& b) const;
+
     std::vector<Change> changes_;
+    std::vector<Turned> turned_;
 };
 
 extern template struct Walker<1>;
