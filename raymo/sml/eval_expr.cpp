@@ -5,6 +5,7 @@
 #include "raymo/core/assert.hpp"
 #include "raymo/sml/evaluate.hpp"
 #include "raymo/sml/lexer.hpp"
+#include "raymo/sml/suggest.hpp"
 #include "raymo/sml/text.hpp"
 
 namespace raymo::sml {
@@ -103,7 +104,7 @@ bool Evaluator::eval_name(const Node& n, NodeId id, Value& out) {
         default: {
             const Builtin& b = builtins()[n.slot];
             if (b.is_constant) {
-                out = Value::number(b.constant);
+                out = b.is_axis ? Value::vector(b.axis) : Value::number(b.constant);
             } else if (!b.is_available) {
                 return fail(ErrorCode::not_available, n.span(),
                             fmt::format("`{}` is not available yet", b.takes.callee));
@@ -305,6 +306,19 @@ bool Evaluator::eval_minus(const Node& n, NodeId id, Value& out) {
                 fmt::format("this is {}", kind_text(value)));
 }
 
+std::string Evaluator::fields_hint(const RecordObject& record, std::string_view written) const {
+    Suggestion suggestion(written);
+    std::string fields;
+    for (const auto& [symbol, ignored] : record.fields) {
+        const std::string& field = program_.symbols.text(symbol);
+        suggestion.consider(field);
+        if (fields.size() <= 60) fields += (fields.empty() ? "" : ", ") + shortened(field);
+    }
+    if (fields.empty()) return "it has no fields";
+    if (!suggestion.found()) return fmt::format("its fields are {}", fields);
+    return fmt::format("{} its fields are {}", suggestion.hint(), fields);
+}
+
 bool Evaluator::eval_member(const Node& n, Value& out) {
     const NodeId receiver = ast_.child(n, 0);
     Value value;
@@ -315,13 +329,8 @@ bool Evaluator::eval_member(const Node& n, Value& out) {
             out = *field;
             return true;
         }
-        std::string fields;
-        for (const auto& [symbol, ignored] : value.as<RecordObject>().fields) {
-            if (fields.size() > 60) break;
-            fields += (fields.empty() ? "" : ", ") + program_.symbols.text(symbol);
-        }
         return fail(ErrorCode::name, n.span(), fmt::format("the record has no field `{}`", name),
-                    fields.empty() ? "" : fmt::format("its fields are {}", fields));
+                    fields_hint(value.as<RecordObject>(), name));
     }
     if (value.is(Tag::list) && name.size() == 1 && name[0] >= 'x' && name[0] <= 'z') {
         const auto axis = static_cast<std::size_t>(name[0] - 'x');
@@ -373,7 +382,8 @@ bool Evaluator::eval_index(const Node& n, NodeId id, Value& out) {
         const Value* const field =
             symbol == kNoSymbol ? nullptr : list.as<RecordObject>().find(symbol);
         if (field == nullptr) {
-            return fail(ErrorCode::name, span(index_node), "the record has no such field", {},
+            return fail(ErrorCode::name, span(index_node), "the record has no such field",
+                        fields_hint(list.as<RecordObject>(), index.string()),
                         fmt::format("this is {}", quoted(index.string().substr(0, 40))));
         }
         out = *field;

@@ -256,6 +256,17 @@ bool Evaluator::check_domain(NodeId domain_id, const std::string& name, const Va
             !number_of(ast_.child(domain, 1), "the end of a range", high)) {
             return false;
         }
+        if (count == 0.0) {
+            std::string limits;
+            if (low > high) {
+                limits = fmt::format("write {}..{}", number_text(high), number_text(low));
+            } else if (step_size < 0.0) {
+                limits = "leave out the sign of the step";
+            }
+            return fail(ErrorCode::out_of_range, span(domain_id),
+                        fmt::format("the limits of the parameter `{}` hold no number", name),
+                        std::move(limits), "this range is empty");
+        }
         std::string shown;
         if (!show(value, domain_id, shown)) return false;
         const std::string label = fmt::format("this is {}", shown.substr(0, 40));

@@ -107,6 +107,9 @@ private:
     bool eval_range(const Node& n, NodeId id, double& low, double& step, double& count);
     bool eval_binary(const Node& n, NodeId id, Value& out);
     bool eval_chain(const Node& n, NodeId id, Value& out);
+    /// For a record without the field `written`: a name like it, and the fields it has.
+    [[nodiscard]] std::string fields_hint(const RecordObject& record,
+                                          std::string_view written) const;
     bool eval_member(const Node& n, Value& out);
     bool eval_index(const Node& n, NodeId id, Value& out);
     bool eval_interpolation(const Node& n, NodeId id, Value& out);

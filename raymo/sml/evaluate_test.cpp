@@ -172,4 +172,41 @@ TEST_CASE("dump_tokens: one token a line, through strings with expressions") {
           "}y\"\n2:3 name a\n");
 }
 
+TEST_CASE("evaluate: the specular of a preset is its reflectance at normal incidence") {
+    const auto made = [](const std::string& preset) {
+        const Run r = run("part a = sphere(1).paint(" + preset + "())\n");
+        REQUIRE(r.outcome.ok);
+        for (const scene::Material& m : r.outcome.scene.materials) {
+            if (m.name == preset) return m;
+        }
+        FAIL("no material is called " << preset);
+        return scene::Material{};
+    };
+    for (const char* const name : {"matte", "plastic", "rubber", "wood", "glass", "water"}) {
+        CAPTURE(name);
+        const scene::Material m = made(name);
+        CHECK(m.specular <= 0.06);
+        CHECK(m.mirror <= m.specular);
+        CHECK(m.metal == 0.0);
+    }
+    CHECK(made("glass").specular == doctest::Approx(0.04));
+    CHECK(made("water").specular == doctest::Approx(0.0204).epsilon(1e-2));
+    for (const char* const name : {"metal", "gold", "copper", "chrome"}) {
+        CAPTURE(name);
+        const scene::Material m = made(name);
+        CHECK(m.specular >= 0.5);
+        CHECK(m.mirror <= m.specular);
+        CHECK(m.metal == 1.0);
+    }
+}
+
+TEST_CASE("evaluate: a text may be as long as the limit, and no longer") {
+    std::string text(kMaxTextBytes, ' ');
+    CHECK(run(text).outcome.ok);
+    text += ' ';
+    const Run r = run(text);
+    CHECK_FALSE(r.outcome.ok);
+    CHECK(shown(r.outcome).find("larger than 64 MiB") != std::string::npos);
+}
+
 }  // namespace raymo::sml

@@ -283,8 +283,10 @@ protected:
             }
             return out;
         }
+        // A variable called x is not the axis before it is declared.
         const int row = find_builtin(text(symbol));
-        if (row >= 0) {
+        const bool is_axis = row >= 0 && builtins()[static_cast<std::size_t>(row)].is_axis;
+        if (row >= 0 && !(is_axis && out.pending != kNoPlan)) {
             out.place = Place::builtin;
             out.slot = static_cast<std::uint32_t>(row);
         }
@@ -314,7 +316,7 @@ protected:
             }
         }
         for (const Builtin& b : builtins()) {
-            if (b.is_available) out.consider(b.takes.callee);
+            if (b.is_available && !b.is_axis) out.consider(b.takes.callee);
         }
         return out.hint();
     }

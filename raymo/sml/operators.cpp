@@ -50,6 +50,11 @@ double arithmetic(Operator op, double a, double b) {
     }
 }
 
+// What an operand is, shortly: a number itself, of all else its kind.
+std::string operand_text(const Value& value) {
+    return value.is(Tag::number) ? number_text(value.number()) : std::string(kind_text(value));
+}
+
 std::string_view remedy(Operator op, const Value& a, const Value& b) {
     if (a.is(Tag::string) || b.is(Tag::string)) return "to make a text, write \"${a} ${b}\"";
     if (op == Operator::intersect && (a.is(Tag::boolean) || b.is(Tag::boolean)))
@@ -58,6 +63,17 @@ std::string_view remedy(Operator op, const Value& a, const Value& b) {
         return "call the function: f(...)";
     }
     if (a.is(Tag::solid) && b.is(Tag::list)) return "use union(list)";
+    if (op == Operator::intersect && !a.is(Tag::solid) && !b.is(Tag::solid))
+        return "`&` intersects solids; to join conditions, write `and`";
+    if ((a.is(Tag::solid) || b.is(Tag::solid)) && (a.is(Tag::number) || b.is(Tag::number))) {
+        const bool sizes = op == Operator::multiply || op == Operator::divide;
+        return sizes ? "to change its size, write solid.scale(factor)"
+                     : "to move it, write solid.move(x, y, z)";
+    }
+    if (op == Operator::divide && b.is(Tag::list))
+        return "divide by each of its elements: [for x in list: a / x]";
+    if (a.is(Tag::list) || b.is(Tag::list))
+        return "work on each of its elements: [for x in list: ...]";
     return {};
 }
 
@@ -187,7 +203,8 @@ bool Evaluator::binary(Operator op, const Value& a, const Value& b, NodeId site,
     return fail(
         ErrorCode::bad_argument, where,
         fmt::format("`{}` does not go with {} and {}", spelling(op), kind_text(a), kind_text(b)),
-        std::string(remedy(op, a, b)));
+        std::string(remedy(op, a, b)),
+        fmt::format("this is {} {} {}", operand_text(a), spelling(op), operand_text(b)));
 }
 
 bool Evaluator::equal(const Value& a, const Value& b, NodeId site, bool& out) {
@@ -288,8 +305,9 @@ bool Evaluator::show(const Value& value, NodeId site, std::string& out) {
                     break;
                 case Tag::range: {
                     const auto& r = current->as<RangeObject>();
-                    out += fmt::format("{}..{}", number_text(r.low),
-                                       number_text(r.count > 0 ? r.at(r.count - 1) : r.low));
+                    const std::string low = number_text(r.low);
+                    out += r.count > 0 ? fmt::format("{}..{}", low, number_text(r.at(r.count - 1)))
+                                       : fmt::format("{}..<{}", low, low);
                     if (r.step != 1.0) out += " step " + number_text(r.step);
                     break;
                 }

@@ -14,7 +14,6 @@ namespace raymo::sml {
 
 inline constexpr int kMaxNesting = 200;
 inline constexpr std::size_t kMaxNodes = 20'000'000;
-inline constexpr std::size_t kMaxTextBytes = 256U << 20;
 
 class Parser {
 public:
@@ -39,24 +38,33 @@ private:
     private:
         Parser& parser_;
     };
-    // Inside brackets a new line does not end a statement; inside a block it does again.
+    // Inside brackets a new line does not end a statement; inside a block it does again. In both, `in` is an
+    // operator, whatever it is around them.
     class Lines {
     public:
         Lines(Parser& parser, bool end_statements)
-            : parser_(parser), before_(parser.lines_end_statements_) {
+            : parser_(parser),
+              before_(parser.lines_end_statements_),
+              in_before_(parser.in_is_operator_) {
             parser_.lines_end_statements_ = end_statements;
+            parser_.in_is_operator_ = true;
         }
-        ~Lines() { parser_.lines_end_statements_ = before_; }
+        ~Lines() {
+            parser_.lines_end_statements_ = before_;
+            parser_.in_is_operator_ = in_before_;
+        }
         Lines(const Lines&) = delete;
         Lines& operator=(const Lines&) = delete;
 
     private:
         Parser& parser_;
         bool before_;
+        bool in_before_;
     };
 
     // Statements (parser_stmt.cpp)
     void statements(std::vector<NodeId>& out, TokenKind closing);
+    void stray_bracket();
     NodeId statement();
     NodeId block();
     NodeId declaration(NodeKind kind);
@@ -130,8 +138,10 @@ private:
     Token token_;
     std::uint32_t previous_end_ = 0;
     int nesting_ = 0;
-    int open_brackets_ = 0;  ///< ( [ { read and not closed yet
+    int open_brackets_ = 0;              ///< ( [ { read and not closed yet
+    std::uint32_t statement_begin_ = 0;  ///< of the statement that is read
     bool lines_end_statements_ = true;
+    bool in_is_operator_ = true;  ///< not behind a param's default, where `in` begins its limits
     bool in_error_ =
         false;              ///< the statement has an error already: the rest of it says nothing new
     bool stopped_ = false;  ///< a limit was passed: nothing more is read

@@ -116,7 +116,7 @@ NodeId Parser::comparison() {
 NodeId Parser::membership() {
     const std::uint32_t begin = token_.begin;
     const NodeId left = range();
-    if (!at(TokenKind::kw_in) || !continues()) return left;
+    if (!at(TokenKind::kw_in) || !in_is_operator_ || !continues()) return left;
     advance();
     const NodeId right = range();
     const NodeId node = make(NodeKind::binary, begin, {left, right});

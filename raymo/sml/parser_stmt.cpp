@@ -65,7 +65,8 @@ void Parser::error(std::uint32_t begin, std::uint32_t end, std::string message, 
 void Parser::unexpected(std::string_view expected, std::string hint) {
     if (hint.empty() && at(TokenKind::assign)) hint = "to compare, write `==`";
     const bool line_ended = token_.newline_before && (lines_end_statements_ || at(TokenKind::end));
-    if (line_ended && previous_end_ > 0) {  // the place to mend is the end of the line before
+    // The place to mend is the end of the line before, where the statement began there.
+    if (line_ended && previous_end_ > statement_begin_) {
         error(previous_end_ - 1, previous_end_,
               fmt::format("expected {}, found the end of the line", expected), std::move(hint));
         return;
@@ -186,14 +187,28 @@ void Parser::skip_statement(int brackets, std::size_t indent) {
     }
 }
 
+// A bracket where a statement should begin. What follows `)` or `]` on its line belongs to whatever it was meant to
+// close; a statement may follow `}`.
+void Parser::stray_bracket() {
+    const bool is_brace = at(TokenKind::close_brace);
+    const std::size_t indent = indent_of(token_.begin);
+    ++open_brackets_;
+    const int brackets = open_brackets_;
+    error(token_.begin, token_.end, fmt::format("this {} closes nothing", found()));
+    advance();
+    if (!is_brace && !token_.newline_before) {
+        skip_statement(brackets, indent);
+        open_brackets_ = brackets - (at(TokenKind::close_brace) ? 1 : 0);
+    }
+    in_error_ = false;
+}
+
 void Parser::statements(std::vector<NodeId>& out, TokenKind closing) {
     while (!stopped_ && !at(TokenKind::end) && !at(closing)) {
         if (accept(TokenKind::semicolon)) continue;
-        if (at(TokenKind::close_brace)) {
-            error(token_.begin, token_.end, "this `}` closes nothing");
-            advance();
-            in_error_ = false;
-            open_brackets_ = 0;
+        if (at(TokenKind::close_brace) || at(TokenKind::close_paren) ||
+            at(TokenKind::close_bracket)) {
+            stray_bracket();
             continue;
         }
         // The bracket that may begin the statement is counted already.
@@ -203,6 +218,7 @@ void Parser::statements(std::vector<NodeId>& out, TokenKind closing) {
         const TextRange doc = token_.doc_before;
         const std::uint32_t begin = token_.begin;
         const std::size_t indent = indent_of(token_.begin);
+        statement_begin_ = begin;
         const NodeId node = statement();
         if (!in_error_) end_of_statement();
         if (in_error_) {
@@ -398,8 +414,10 @@ NodeId Parser::param_statement() {
     advance();
     const NodeId name = binding();
     expect(TokenKind::assign, "and a default");
-    std::vector<NodeId> nodes{name, in_error_ ? invalid() : range()};
-    if (accept(TokenKind::kw_in)) nodes.push_back(range());
+    in_is_operator_ = false;
+    std::vector<NodeId> nodes{name, in_error_ ? invalid() : expression()};
+    in_is_operator_ = true;
+    if (!in_error_ && accept(TokenKind::kw_in)) nodes.push_back(range());
     return make(NodeKind::param, begin, nodes);
 }
 

@@ -141,7 +141,19 @@ private:
         for (const Symbol known : fields_) out.consider(text(known));
         reporter_.error(ErrorCode::name, where,
                         fmt::format("no value has a field `{}`", shortened(text(n.symbol))),
-                        out.hint());
+                        out.found() ? out.hint() : fields_written());
+    }
+
+    // The fields of all records that the program writes.
+    [[nodiscard]] std::string fields_written() const {
+        std::string out;
+        std::unordered_set<Symbol> seen;
+        for (const Node& n : ast_.nodes) {
+            if (n.kind != NodeKind::field || !seen.insert(n.symbol).second) continue;
+            out += (out.empty() ? "" : ", ") + shortened(text(n.symbol));
+            if (out.size() > 60) return out + ", ...";
+        }
+        return out.empty() ? "the program makes no records" : "records here have the fields " + out;
     }
 
     // The arguments of a call or method node from child `first` on; the receiver counts where it is one.
@@ -163,11 +175,11 @@ private:
         if (callee.place == Place::builtin) {
             const Builtin& b = builtins()[callee.slot];
             if (b.is_constant || !b.is_available) {
-                if (b.is_constant) {
+                if (b.is_constant && is_known) {
                     const Node& n = ast_[id];
-                    reporter_.error(
-                        ErrorCode::bad_argument, n.span(),
-                        fmt::format("`{}` is a number, not a function", b.takes.callee));
+                    reporter_.error(ErrorCode::bad_argument, n.span(),
+                                    fmt::format("`{}` is {}, not a function", b.takes.callee,
+                                                b.is_axis ? "a vector" : "a number"));
                 }
                 return;
             }
@@ -365,7 +377,8 @@ private:
         if (found.place == Place::builtin) {
             reporter_.error(
                 ErrorCode::name, ast_[target].span(),
-                fmt::format("`{}` is a function of the language", text(ast_[target].symbol)),
+                fmt::format("`{}` is a {} of the language", text(ast_[target].symbol),
+                            builtins()[found.slot].is_constant ? "constant" : "function"),
                 fmt::format("declare a variable of that name: var {} = ...",
                             text(ast_[target].symbol)));
             return;

@@ -14,6 +14,9 @@
 
 namespace raymo::sml {
 
+/// No program text is longer: 64 MiB.
+inline constexpr std::size_t kMaxTextBytes = std::size_t{64} << 20;
+
 /// The texts of one evaluation. SourceSpan::file is an index into this.
 struct SourceFile {
     std::string path;  ///< as shown in messages

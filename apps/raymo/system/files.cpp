@@ -13,6 +13,7 @@
 
 #include "apps/raymo/system/interrupt.hpp"
 #include "apps/raymo/text.hpp"
+#include "raymo/sml/sml.hpp"
 
 namespace raymo::app {
 namespace {
@@ -73,10 +74,12 @@ Attempt<std::string> read_text(const std::string& path, const Console& console) 
         if (S_ISDIR(info.st_mode)) return can_not("read", name, EISDIR);
     }
     const auto too_long = [&] {
-        return trouble(kModelWrong,
-                       in_quotes(name) + " is longer than 64 MiB, the limit of a program's text");
+        return trouble(kModelWrong, in_quotes(name) + " is longer than " +
+                                        std::to_string(sml::kMaxTextBytes >> 20) +
+                                        " MiB, the limit of a program's text");
     };
-    if (S_ISREG(info.st_mode) && info.st_size > static_cast<off_t>(kLongestText)) return too_long();
+    if (S_ISREG(info.st_mode) && info.st_size > static_cast<off_t>(sml::kMaxTextBytes))
+        return too_long();
     std::string text;
     if (S_ISREG(info.st_mode)) text.reserve(static_cast<std::size_t>(info.st_size));
     std::vector<char> buffer(1U << 16);
@@ -89,7 +92,7 @@ Attempt<std::string> read_text(const std::string& path, const Console& console) 
             return can_not("read", name, errno);
         }
         text.append(buffer.data(), static_cast<std::size_t>(got));
-        if (text.size() > kLongestText) return too_long();
+        if (text.size() > sml::kMaxTextBytes) return too_long();
     }
 }
 

@@ -12,11 +12,8 @@
 
 namespace raymo::app {
 
-/// No program text is longer: 64 MiB.
-inline constexpr std::size_t kLongestText = std::size_t{1} << 26;
-
 /// All of a file ("-": standard input). Trouble: kFileTrouble when it can not be read or is a
-/// directory; kModelWrong when it is longer than kLongestText, of which no more than that is read.
+/// directory; kModelWrong when it is longer than sml::kMaxTextBytes, of which no more than that is read.
 [[nodiscard]] Attempt<std::string> read_text(const std::string& path, const Console& console);
 
 /// Where a result goes: a file, or standard output for "-".

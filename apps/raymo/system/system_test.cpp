@@ -14,6 +14,7 @@
 #include "apps/raymo/system/executor.hpp"
 #include "apps/raymo/system/files.hpp"
 #include "apps/raymo/system/watch.hpp"
+#include "raymo/sml/sml.hpp"
 
 namespace raymo::app {
 namespace {
@@ -91,7 +92,8 @@ TEST_CASE("files: reading what is missing, a folder, or too long") {
     CHECK(read_text(folder / "none.raymo", console).error().code == kFileTrouble);
     CHECK(read_text(folder.path.string(), console).error().code == kFileTrouble);
     std::ofstream(folder / "long.raymo") << "x";
-    REQUIRE(truncate((folder / "long.raymo").c_str(), static_cast<off_t>(kLongestText) + 1) == 0);
+    REQUIRE(truncate((folder / "long.raymo").c_str(), static_cast<off_t>(sml::kMaxTextBytes) + 1) ==
+            0);
     CHECK(read_text(folder / "long.raymo", console).error().code == kModelWrong);
     CHECK(read_text("/dev/zero", console).error().code == kModelWrong);  // without an end
 }

@@ -75,15 +75,7 @@ bool ring(Call& call, Value& out) {
     Vec3 axis{0, 0, 1};
     double angle = 360.0;
     if (!call.solid(0, s) || !call.whole(1, 1, 1e6, n)) return false;
-    if (call.has(2) && call[2].is(Tag::string)) {
-        static constexpr auto kAxes = std::to_array<std::string_view>({"x", "y", "z"});
-        std::size_t chosen = 0;
-        if (!call.choice(2, kAxes, chosen)) return false;
-        axis = {};
-        axis[static_cast<int>(chosen)] = 1.0;
-    } else if (call.has(2) && !call.direction(2, axis)) {
-        return false;
-    }
+    if (call.has(2) && !call.axis(2, axis)) return false;
     if (call.has(3) && !call.number(3, angle)) return false;
     // A full turn ends where it began; less than that has an instance at both ends.
     const bool is_full = std::fabs(angle) >= 360.0;

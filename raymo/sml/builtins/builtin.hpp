@@ -31,8 +31,7 @@ struct ParameterList {
     struct Parameter {
         std::string name;
         bool required = false;
-        int stands_for = -1;     ///< gives the same as that parameter (a diameter for a radius)
-        bool is_hidden = false;  ///< has no name of its own (the second and third number of a size)
+        int stands_for = -1;  ///< gives the same as that parameter (a diameter for a radius)
     };
     std::string callee;
     std::vector<Parameter> parameters;
@@ -46,9 +45,11 @@ struct Builtin {
     BuiltinFunction run = nullptr;
     std::string_view doc;
     int primitive = -1;        ///< row of solids::inventory()
-    bool is_constant = false;  ///< pi, tau: no function
+    bool is_constant = false;  ///< pi, tau, x, y, z: no function
     bool is_available = true;
     double constant = 0.0;
+    bool is_axis = false;  ///< x, y, z: the constant is the vector `axis`
+    Vec3 axis;
 };
 
 [[nodiscard]] std::span<const Builtin> builtins();

@@ -65,7 +65,9 @@ bool Call::wrong_kind(std::size_t i, std::string_view expected, std::string hint
 }
 
 bool Call::number(std::size_t i, double& out) {
-    if (!has(i) || !slots_[i].is(Tag::number)) return wrong_kind(i, "a number");
+    if (!has(i) || !slots_[i].is(Tag::number)) {
+        return wrong_kind(i, "a number", fmt::format("it is {}", builtin_.takes.signature));
+    }
     out = slots_[i].number();
     return true;
 }
@@ -109,6 +111,16 @@ bool Call::direction(std::size_t i, Vec3& out) {
     return fail(i, ErrorCode::out_of_range,
                 fmt::format("{} must not be (0, 0, 0)", argument_name(i)), "upwards is (0, 0, 1)",
                 "this has no direction");
+}
+
+bool Call::axis(std::size_t i, Vec3& out) {
+    if (!has(i) || !slots_[i].is(Tag::string)) return direction(i, out);
+    static constexpr auto kAxes = std::to_array<std::string_view>({"x", "y", "z"});
+    std::size_t chosen = 0;
+    if (!choice(i, kAxes, chosen)) return false;
+    out = {};
+    out[static_cast<int>(chosen)] = 1.0;
+    return true;
 }
 
 bool Call::text(std::size_t i, std::string& out) {

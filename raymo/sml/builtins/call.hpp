@@ -50,6 +50,8 @@ public:
     bool vector(std::size_t i, Vec3& out);
     /// Like vector, but not (0, 0, 0).
     bool direction(std::size_t i, Vec3& out);
+    /// A direction, or "x", "y" or "z".
+    bool axis(std::size_t i, Vec3& out);
     bool text(std::size_t i, std::string& out);
     bool solid(std::size_t i, csg::Solid& out);
     /// A list; a range becomes one.

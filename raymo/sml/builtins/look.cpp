@@ -36,7 +36,7 @@ constexpr auto kFacets = std::to_array<std::string_view>({"trowbridge-reitz", "g
 
 // The arguments of material() and of every preset, in this order.
 constexpr std::string_view kMaterialParameters =
-    "color? | diffuse? specular? roughness? metal? mirror? transmission? ior? absorption? facets?";
+    "color? diffuse? specular? roughness? mirror? transmission? ior? absorption? | facets? metal?";
 
 bool adjust(Call& call, Material& m) {
     if (call.has(0)) {
@@ -45,38 +45,36 @@ bool adjust(Call& call, Material& m) {
         if (!name.empty()) m.name = m.name.empty() ? name : m.name + " " + name;
     }
     if (!between(call, 1, 0, 1, m.diffuse) || !between(call, 2, 0, 1, m.specular) ||
-        !between(call, 3, 0, 1, m.roughness) || !between(call, 4, 0, 1, m.metal) ||
-        !between(call, 5, 0, 1, m.mirror) || !between(call, 6, 0, 1, m.transmission) ||
-        !between(call, 7, 1, 10, m.ior)) {
+        !between(call, 3, 0, 1, m.roughness) || !between(call, 4, 0, 1, m.mirror) ||
+        !between(call, 5, 0, 1, m.transmission) || !between(call, 6, 1, 10, m.ior) ||
+        !between(call, 9, 0, 1, m.metal)) {
         return false;
     }
-    if (call.has(8)) {
-        if (call[8].is(Tag::number)) {
+    if (call.has(7)) {
+        if (call[7].is(Tag::number)) {
             double x = 0.0;
-            if (!between(call, 8, 0, kNoLimit, x)) return false;
+            if (!between(call, 7, 0, kNoLimit, x)) return false;
             m.absorption = {x, x, x};
         } else {
-            if (!call.vector(8, m.absorption)) return false;
+            if (!call.vector(7, m.absorption)) return false;
             for (int c = 0; c < 3; ++c) {
                 if (m.absorption[c] >= 0.0) continue;
-                return call.fail(8, ErrorCode::out_of_range, "`absorption` must be at least 0", {},
+                return call.fail(7, ErrorCode::out_of_range, "`absorption` must be at least 0", {},
                                  fmt::format("this has {}", number_text(m.absorption[c])));
             }
         }
     }
-    if (call.has(9)) {
+    if (call.has(8)) {
         std::size_t facets = 0;
-        if (!call.choice(9, kFacets, facets)) return false;
+        if (!call.choice(8, kFacets, facets)) return false;
         m.facets = static_cast<scene::Facets>(facets);
     }
     return true;
 }
 
-struct Preset {
-    std::string_view name;
-    Material material;
-};
-
+// `specular` is the reflectance at normal incidence, which for a body that does not conduct follows from its index
+// of refraction: ((n - 1) / (n + 1))^2, some 0.04 or 0.05 for plastics, lacquer and rubber. The mirror image of a
+// smooth surface weighs the same.
 Material preset(std::string_view name, Vec3 srgb, double diffuse, double specular,
                 double roughness) {
     Material m;
@@ -89,16 +87,17 @@ Material preset(std::string_view name, Vec3 srgb, double diffuse, double specula
 }
 
 Material metal_preset(std::string_view name, Vec3 srgb, double roughness, double mirror) {
-    Material m = preset(name, srgb, 0.25, 0.8, roughness);
+    Material m = preset(name, srgb, 0.25, std::max(0.8, mirror), roughness);
     m.metal = 1.0;
     m.mirror = mirror;
     return m;
 }
 
 Material clear_preset(std::string_view name, double ior, Vec3 absorption) {
-    Material m = preset(name, {1, 1, 1}, 0.02, 0.6, 0.05);
+    const double reflectance = (ior - 1.0) / (ior + 1.0) * ((ior - 1.0) / (ior + 1.0));
+    Material m = preset(name, {1, 1, 1}, 0.02, reflectance, 0.05);
     m.transmission = 0.95;
-    m.mirror = 0.04;
+    m.mirror = reflectance;
     m.ior = ior;
     m.absorption = absorption;
     return m;
@@ -119,7 +118,7 @@ bool matte(Call& call, Value& out) {
     return finish(call, preset("matte", {0.9, 0.9, 0.9}, 0.9, 0.0, 1.0), out);
 }
 bool plastic(Call& call, Value& out) {
-    Material m = preset("plastic", {0.9, 0.9, 0.9}, 0.85, 0.35, 0.2);
+    Material m = preset("plastic", {0.9, 0.9, 0.9}, 0.85, 0.05, 0.2);
     m.mirror = 0.03;
     return finish(call, std::move(m), out);
 }
@@ -142,10 +141,10 @@ bool water(Call& call, Value& out) {
     return finish(call, clear_preset("water", 1.333, {0.006, 0.002, 0.001}), out);
 }
 bool rubber(Call& call, Value& out) {
-    return finish(call, preset("rubber", {0.22, 0.22, 0.23}, 0.8, 0.12, 0.7), out);
+    return finish(call, preset("rubber", {0.22, 0.22, 0.23}, 0.8, 0.04, 0.7), out);
 }
 bool wood(Call& call, Value& out) {
-    return finish(call, preset("wood", {0.72, 0.52, 0.33}, 0.85, 0.1, 0.55), out);
+    return finish(call, preset("wood", {0.72, 0.52, 0.33}, 0.85, 0.04, 0.55), out);
 }
 
 // s.paint(material), s.paint(colour)
@@ -237,6 +236,15 @@ bool light(Call& call, Value& out) {
             !is_vector(call[kArea].items()[2], l.edge_v)) {
             return call.wrong_kind(kArea, "a corner and two edges, each three numbers",
                                    "write area: [(0, 0, 300), (100, 0, 0), (0, 100, 0)]");
+        }
+        // Parallel to within rounding counts as parallel.
+        const double extent = max_norm(cross(l.edge_u, l.edge_v));
+        if (!(extent > 1e-12 * max_norm(l.edge_u) * max_norm(l.edge_v))) {
+            return call.fail(kArea, ErrorCode::out_of_range, "the area has no extent",
+                             "its two edges must point in different directions",
+                             max_norm(l.edge_u) == 0.0 || max_norm(l.edge_v) == 0.0
+                                 ? "an edge is (0, 0, 0)"
+                                 : "the edges are parallel");
         }
     } else {
         l.kind = scene::LightKind::directional;
@@ -362,8 +370,8 @@ std::span<const BuiltinRow> look_rows() {
         {"light",
          "| position? direction? area? spot? target? angle? blur? samples? power? color? shadows?",
          &light, "A light."},
-        {"camera", "eye look_at? | up? angle? projection? height? aperture? focus? shutter?",
-         &camera, "Where a picture is taken from."},
+        {"camera", "eye look_at? up? angle? projection? height? aperture? focus? shutter?", &camera,
+         "Where a picture is taken from."},
         {"ambient", "level", &ambient, "Light from everywhere."},
         {"background", "color top? | image?", &background,
          "What is behind: a colour, or two from bottom to top."},

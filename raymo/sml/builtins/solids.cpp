@@ -11,6 +11,7 @@ namespace {
 // One argument of a primitive as its schema asks for it. `slot` is where it stands among the call's parameters.
 bool take(Call& call, const solids::Param& param, std::size_t slot, std::size_t diameter,
           solids::Argument& out) {
+    // The other name of the argument: a diameter for a radius, `dx` for a size.
     const bool is_diameter = diameter > 0 && call.has(diameter);
     if (!call.has(slot) && !is_diameter && param.fallback) {
         out = *param.fallback;
@@ -41,17 +42,20 @@ bool take(Call& call, const solids::Param& param, std::size_t slot, std::size_t 
             Vec3 value;
             if (call.has(slot) && call[slot].is(Tag::list)) {
                 if (!call.vector(slot, value)) return false;
-                if (call.has(slot + 1)) {
-                    return call.fail(slot + 1, ErrorCode::bad_argument, "the size is given already",
+                if (call.has(slot + 1) || call.has(slot + 2)) {
+                    return call.fail(call.has(slot + 1) ? slot + 1 : slot + 2,
+                                     ErrorCode::bad_argument, "the size is given already",
                                      "give one vector, three numbers, or one number for a cube");
                 }
             } else {
-                if (!call.number(slot, value.x)) return false;
+                if (!call.number(is_diameter ? diameter : slot, value.x)) return false;
                 value = {value.x, value.x, value.x};
-                if (call.has(slot + 1)) {
-                    if (!call.has(slot + 2)) {
+                if (is_diameter || call.has(slot + 1) || call.has(slot + 2)) {
+                    if (!call.has(slot + 1) || !call.has(slot + 2)) {
                         return call.fail(ErrorCode::bad_argument,
-                                         "the third number of the size is missing",
+                                         call.has(slot + 1)
+                                             ? "the third number of the size is missing"
+                                             : "the second number of the size is missing",
                                          "give three numbers, or one for a cube");
                     }
                     for (std::size_t axis = 1; axis < 3; ++axis) {
@@ -80,15 +84,16 @@ bool take(Call& call, const solids::Param& param, std::size_t slot, std::size_t 
 
 // The argument that an error about a schema's parameter points at: of a size, the number that is wrong.
 std::size_t blamed(Call& call, const solids::Param& param, std::size_t slot, std::size_t diameter) {
-    if (diameter > 0 && call.has(diameter)) return diameter;
+    const bool is_other = diameter > 0 && call.has(diameter);
     if (param.kind == solids::ParamKind::size) {
         for (std::size_t axis = 0; axis < 3; ++axis) {
-            if (call.has(slot + axis) && call[slot + axis].is(Tag::number) &&
-                !(call[slot + axis].number() > param.min)) {
-                return slot + axis;
+            const std::size_t at = axis == 0 && is_other ? diameter : slot + axis;
+            if (call.has(at) && call[at].is(Tag::number) && !(call[at].number() > param.min)) {
+                return at;
             }
         }
     }
+    if (is_other) return diameter;
     return slot;
 }
 

@@ -36,7 +36,7 @@ ParameterList parse_parameters(std::string_view name, std::string_view text) {
             continue;
         }
         shown += by_name_only ? fmt::format("{}: ...", word) : std::string(word);
-        out.parameters.push_back({std::string(word), mark != '?', -1, false});
+        out.parameters.push_back({std::string(word), mark != '?', -1});
         if (!by_name_only) out.positional = out.parameters.size();
     }
     out.signature = fmt::format("{}({})", name, shown);
@@ -49,19 +49,22 @@ ParameterList parameters_of(const solids::Schema& schema) {
     std::string shown;
     for (const solids::Param& p : schema.params) {
         if (!shown.empty()) shown += ", ";
-        shown += p.name;
-        out.parameters.push_back({std::string(p.name), !p.fallback.has_value(), -1, false});
+        out.parameters.push_back({std::string(p.name), !p.fallback.has_value(), -1});
         if (p.kind == solids::ParamKind::size) {
-            out.parameters.push_back({{}, false, -1, true});
-            out.parameters.push_back({{}, false, -1, true});
+            shown += "dx, dy, dz";
+            out.parameters.push_back({"dy", false, -1});
+            out.parameters.push_back({"dz", false, -1});
+        } else {
+            shown += p.name;
         }
     }
     out.positional = out.parameters.size();
     int index = 0;
     for (const solids::Param& p : schema.params) {
         if (!p.diameter.empty()) {
-            out.parameters.push_back({std::string(p.diameter), false, index, false});
+            out.parameters.push_back({std::string(p.diameter), false, index});
         }
+        if (p.kind == solids::ParamKind::size) out.parameters.push_back({"dx", false, index});
         index += p.kind == solids::ParamKind::size ? 3 : 1;
     }
     out.signature = fmt::format("{}({})", schema.name, shown);
@@ -102,6 +105,9 @@ struct Table {
         }
         add_constant("pi", std::numbers::pi);
         add_constant("tau", 2.0 * std::numbers::pi);
+        add_axis("x", {1, 0, 0});
+        add_axis("y", {0, 1, 0});
+        add_axis("z", {0, 0, 1});
         for (std::size_t i = 0; i < rows.size(); ++i) {
             index.emplace(rows[i].takes.callee, static_cast<int>(i));
         }
@@ -112,6 +118,11 @@ struct Table {
         b.is_constant = true;
         b.constant = value;
         rows.push_back(std::move(b));
+    }
+    void add_axis(std::string_view name, Vec3 direction) {
+        add_constant(name, 0.0);
+        rows.back().is_axis = true;
+        rows.back().axis = direction;
     }
 };
 
@@ -153,7 +164,7 @@ ParameterList parameters_of(const Ast& ast, const FunctionInfo& info, const Symb
         const std::string& name = symbols.text(ast[ast.child(lambda, i)].symbol);
         if (!shown.empty()) shown += ", ";
         shown += name;
-        out.parameters.push_back({name, i < info.required_count, -1, false});
+        out.parameters.push_back({name, i < info.required_count, -1});
     }
     out.positional = info.parameter_count;
     out.signature =
@@ -186,14 +197,11 @@ std::optional<Error> match(const ParameterList& takes, std::span<const GivenArgu
         } else {
             const std::string& name = symbols.text(argument.name);
             for (std::size_t i = 0; i < count; ++i) {
-                if (!takes.parameters[i].is_hidden && takes.parameters[i].name == name)
-                    parameter = i;
+                if (takes.parameters[i].name == name) parameter = i;
             }
             if (parameter == count) {
                 Suggestion suggestion(name);
-                for (const auto& p : takes.parameters) {
-                    if (!p.is_hidden) suggestion.consider(p.name);
-                }
+                for (const auto& p : takes.parameters) suggestion.consider(p.name);
                 return argument_error(
                     argument.where,
                     fmt::format("{}: there is no argument `{}`", takes.callee, shortened(name)),

@@ -82,7 +82,7 @@ bool rotate(Call& call, Value& out) {
     if (is_about_axis) {
         Vec3 axis;
         double angle = 0.0;
-        if (!call.direction(5, axis) || !call.number(6, angle)) return false;
+        if (!call.axis(5, axis) || !call.number(6, angle)) return false;
         map = rotation(unit(axis), angle);
     } else {
         Vec3 angles;
