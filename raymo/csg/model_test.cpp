@@ -134,6 +134,32 @@ TEST_CASE("bounds: Booleans of boxes") {
     CHECK(bounds(boolean(Op::intersection, {a, far, b})).empty());
 }
 
+TEST_CASE("bounds: a union is not stretched by operands that are nothing") {
+    const Solid a = block({1, 1, 1});
+    const auto shifted = [](const Solid& s, double by) {
+        return transform(s, translation({by, 0, 0})).value();
+    };
+    // Blocks that do not meet: an overlap with its sides exchanged, at places far from 0.
+    const auto nothing = [&](double at) {
+        return boolean(Op::intersection, {shifted(a, at), shifted(a, at + 50)});
+    };
+    Solid gone = boolean(Op::unite, {nothing(0), nothing(100), nothing(-300)});
+    Solid some = boolean(Op::unite, {nothing(100), a, shifted(nothing(-300), -7)});
+    CHECK(bounds(gone).empty());
+    CHECK(bounds(some) == bounds(a));
+    CHECK(bounds(boolean(Op::difference, {gone, a})).empty());
+    CHECK(bounds(boolean(Op::intersection, {a, gone})).empty());
+    // The same by nodes, as for graphs with very many paths.
+    const Solid same = transform(a, {}).value();
+    Solid many = same;
+    for (int i = 0; i < 40; ++i) {
+        gone = boolean(Op::unite, {gone, shifted(gone, 1)});
+        many = boolean(Op::unite, {many, many});
+    }
+    CHECK(bounds(gone).empty());
+    CHECK(bounds(boolean(Op::unite, {gone, many, shifted(gone, 1e6)})) == bounds(a));
+}
+
 TEST_CASE("bounds: leaves are exact under their whole map") {
     // A ball turned is the same ball; boxes of turned boxes would grow.
     const Solid turned = transform(transform(sphere(2), rotation({0, 0, 1}, 45)).value(),

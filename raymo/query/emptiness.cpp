@@ -4,6 +4,7 @@
 #include <cmath>
 #include <queue>
 #include <string_view>
+#include <unordered_set>
 
 #include "raymo/query/locate.hpp"
 #include "raymo/trace/tracer.hpp"
@@ -12,29 +13,41 @@ namespace raymo::query {
 namespace {
 
 constexpr std::size_t kMaxZones = 2048;
-constexpr std::size_t kMaxCells = 8192;  // cells looked at
-constexpr std::size_t kRayBudget =
-    100'000;                 // rays of the last step, at least one grid of 2 x 2 a zone
-constexpr int kFinest = 16;  // rays across a zone
+constexpr std::size_t kMaxCells = 8192;        // cells looked at
+constexpr std::size_t kRayBudget = 100'000;    // rays of the last step, at least one grid a zone
+constexpr int kFinest = 16;                    // rays across a zone
+constexpr std::uint64_t kZoneSteps = 200'000;  // nodes opened to find the zones
+constexpr std::uint64_t kLocatorSteps = 4'000'000;  // nodes met by the proof with cells
+constexpr std::uint64_t kRaySteps = 40'000'000;     // boxes and leaves met by rays
 
-/// Boxes in the world in which some leaf can matter for the root; together they hold all of the
-/// solid. A union with more operands than there is room for stays one zone.
+/// A box in the world in which something can matter for the solid, and that thing when it is one
+/// leaf.
+struct Zone {
+    Aabb box;
+    const csg::LeafNode* leaf = nullptr;
+    Affine to_world;  ///< from the frame in which the leaf was written
+};
+
+/// Zones that together hold all of the solid. A union with more operands than there is room for
+/// stays one zone, and so does what is left when kZoneSteps are gone.
 class Zones {
 public:
     Zones(const Graph& graph, Aabb region) : graph_(graph), region_(region) {}
 
-    std::vector<Aabb> of(std::uint32_t root) {
+    std::vector<Zone> of(std::uint32_t root) {
         push({root, {}, region_});
-        while (!open_.empty()) {
+        for (std::uint64_t steps = 0; !open_.empty(); ++steps) {
             const Item item = open_.back();
             open_.pop_back();
             const Graph::Node& node = graph_[item.node];
-            if (node.kind == csg::NodeKind::transform) {
+            if (node.kind == csg::NodeKind::leaf) {
+                found_.push_back({item.zone, &csg::as_leaf(*node.source), item.to_world});
+            } else if (steps > kZoneSteps ||
+                       found_.size() + open_.size() + node.count > kMaxZones) {
+                found_.push_back({item.zone, nullptr, {}});
+            } else if (node.kind == csg::NodeKind::transform) {
                 const Affine& map = csg::as_transform(*node.source).map;
                 push({node.first, item.to_world * map, item.zone});
-            } else if (node.kind == csg::NodeKind::leaf ||
-                       found_.size() + open_.size() + node.count > kMaxZones) {
-                found_.push_back(item.zone);
             } else {
                 open_boolean(node, item);
             }
@@ -74,7 +87,7 @@ private:
     const Graph& graph_;
     Aabb region_;
     std::vector<Item> open_;
-    std::vector<Aabb> found_;
+    std::vector<Zone> found_;
 };
 
 /// Rays that start outside of the whole model.
@@ -85,14 +98,40 @@ public:
     /// True when one of n x n rays in each of three skew directions through the box meets the
     /// solid.
     bool meets(const Aabb& box, int n) {
+        return grid(
+            box, n, [](Vec3 p) { return p; }, Vec3{0.00321, 0.00782, -0.00533});
+    }
+
+    /// The same along the axes of the leaf's canonical frame and through its own box there, so that
+    /// rays run along a needle and in a sheet, whichever way it is turned. Sides at infinity count
+    /// as 1 from the middle.
+    bool meets_along(const csg::LeafNode& leaf, const Affine& to_world, int n) {
+        Aabb box = std::visit([](const auto& k) { return k.bounds(Affine{}); }, leaf.solid.kernel);
+        for (int axis = 0; axis < 3; ++axis) {
+            if (!std::isfinite(box.lo[axis])) box.lo[axis] = std::min(-1.0, box.hi[axis] - 1.0);
+            if (!std::isfinite(box.hi[axis])) box.hi[axis] = std::max(1.0, box.lo[axis] + 1.0);
+        }
+        const Affine map = to_world * leaf.solid.to_object;
+        // No turn in the world: the shape may be much thinner than that.
+        return grid(box, n, map, {});
+    }
+
+    /// True once the rays have met more boxes and leaves than the question is worth.
+    [[nodiscard]] bool exhausted() const {
+        return tracer_.counts().boxes + tracer_.counts().leaves > kRaySteps;
+    }
+
+private:
+    /// Rays from one side of a box to the opposite one, not quite parallel to its edges. `to_world`
+    /// takes points of the box to the world; `turn` is added to directions of size 1 there.
+    template <class Map>
+    bool grid(const Aabb& box, int n, const Map& to_world, Vec3 turn) {
         const Vec3 size = box.size();
         for (int axis = 0; axis < 3; ++axis) {
             const int b = (axis + 1) % 3;
             const int c = (axis + 2) % 3;
             for (int i = 0; i < n; ++i) {
                 for (int j = 0; j < n; ++j) {
-                    // From one face of the box to the opposite one, not quite parallel to its
-                    // edges.
                     Vec3 from = box.lo;
                     Vec3 to = box.lo;
                     to[axis] += size[axis];
@@ -102,17 +141,18 @@ public:
                     from[c] += size[c] * v;
                     to[b] += size[b] * (u + 0.0713 * (0.5 - u));
                     to[c] += size[c] * (v + 0.0291 * (0.5 - v));
-                    if (shoot(from, to)) return true;
+                    if (exhausted()) return false;
+                    if (shoot(to_world(from), to_world(to), turn)) return true;
                 }
             }
         }
         return false;
     }
 
-private:
-    bool shoot(Vec3 from, Vec3 to) {
+    bool shoot(Vec3 from, Vec3 to, Vec3 turn) {
         Vec3 d = to - from;
-        d = unit(d + Vec3{0.00321, 0.00782, -0.00533} * max_norm(d));  // in no plane of the axes
+        if (!(max_norm(d) > 0.0) || !is_finite(d)) return false;
+        d = unit(d + turn * max_norm(d));
         const Aabb& all = scene_.bounds();
         const double back = 2.0 * (max_norm(all.size()) + max_norm(from - all.centre()));
         trace::RayQuery query;
@@ -148,10 +188,35 @@ Aabb first_leaf(const csg::Solid& solid) {
     return std::visit([&](const auto& k) { return k.bounds(map * leaf.to_object); }, leaf.kernel);
 }
 
+/// True when some leaf is a part of the solid as it is, through unions, maps and paint only: every
+/// primitive has inner points. Cost: each shared node once.
+bool holds_whole_leaf(const csg::Solid& solid) {
+    std::vector<const csg::Node*> open{&solid.node()};
+    std::unordered_set<const csg::Node*> seen;
+    while (!open.empty()) {
+        const csg::Node* node = open.back();
+        open.pop_back();
+        if (node->kind == csg::NodeKind::leaf) return true;
+        if (node->kind == csg::NodeKind::transform) {
+            open.push_back(&csg::as_transform(*node).child.node());
+        } else if (node->kind == csg::NodeKind::paint) {
+            open.push_back(&csg::as_paint(*node).child.node());
+        } else {
+            const std::vector<csg::Solid>& operands = csg::as_boolean(*node).operands;
+            if (node->op != csg::Op::unite && operands.size() > 1) continue;
+            for (const csg::Solid& s : operands) {
+                if (seen.insert(&s.node()).second) open.push_back(&s.node());
+            }
+        }
+    }
+    return false;
+}
+
 bool stopped(Progress* progress) { return progress != nullptr && progress->cancelled(); }
 Failure cancelled() { return fail(ErrorCode::cancelled, "interrupted"); }
 
-enum class Verdict : std::uint8_t { empty, present, open };
+/// `open`: cells are left. `unknown`: the work allowed was done before that could be said.
+enum class Verdict : std::uint8_t { empty, present, open, unknown };
 
 /// Halves zones, largest cells first; leaves in `cells` what is not decided.
 Verdict halve(Locator& locator, std::vector<Aabb>& cells, Progress* progress) {
@@ -165,9 +230,8 @@ Verdict halve(Locator& locator, std::vector<Aabb>& cells, Progress* progress) {
         const Aabb cell = open.top();
         open.pop();
         const Where w = locator.where_all(cell.centre(), cell.size() * 0.5);
-        const bool has_room =
-            cell.lo.x < cell.hi.x && cell.lo.y < cell.hi.y && cell.lo.z < cell.hi.z;
-        if (w == Where::in && has_room) return Verdict::present;
+        if (locator.exhausted()) return Verdict::unknown;
+        if (w == Where::in && has_room(cell)) return Verdict::present;
         if (w == Where::out) continue;
         const Vec3 size = cell.size();
         const int axis = size.x >= size.y && size.x >= size.z ? 0 : (size.y >= size.z ? 1 : 2);
@@ -191,30 +255,31 @@ Result<bool> search(Locator& locator, const trace::CompiledScene& compiled, Prog
     Prober prober(compiled);
     if (prober.meets(compiled.bounds(), 4)) return false;
 
-    const std::vector<Aabb> zones = Zones(locator.graph(), compiled.bounds()).of(locator.root());
-    std::vector<Aabb> cells = zones;
-    switch (halve(locator, cells, progress)) {
-        case Verdict::present:
-            return false;
-        case Verdict::empty:
-            return true;
-        case Verdict::open:
-            break;
-    }
+    const std::vector<Zone> zones = Zones(locator.graph(), compiled.bounds()).of(locator.root());
+    std::vector<Aabb> cells;
+    for (const Zone& zone : zones) cells.push_back(zone.box);
+    locator.allow(kLocatorSteps, progress);
+    const Verdict verdict = halve(locator, cells, progress);
+    if (stopped(progress)) return cancelled();
+    if (verdict == Verdict::empty) return true;
+    if (verdict != Verdict::open) return false;
+
     std::size_t rays = 0;
-    for (int n = 2; n <= kFinest; n *= 2) {
-        for (const Aabb& zone : zones) {
+    for (int n = 1; n <= kFinest && rays <= kRayBudget; n *= 2) {
+        for (const Zone& zone : zones) {
             if (stopped(progress)) return cancelled();
-            if (prober.meets(zone, n)) return false;
-            rays += 3 * static_cast<std::size_t>(n) * static_cast<std::size_t>(n);
+            if (prober.meets(zone.box, n)) return false;
+            if (zone.leaf != nullptr && prober.meets_along(*zone.leaf, zone.to_world, n)) {
+                return false;
+            }
+            rays += 6 * static_cast<std::size_t>(n) * static_cast<std::size_t>(n);
         }
-        if (rays > kRayBudget) break;
     }
     for (const Aabb& cell : cells) {
         if (stopped(progress)) return cancelled();
         if (prober.meets(cell, 1)) return false;
     }
-    return true;
+    return !prober.exhausted();
 }
 
 /// A block about the origin, as large as the finite things in an unbounded solid call for.
@@ -258,6 +323,7 @@ Result<csg::Solid> clip(const csg::Solid& solid) {
 }  // namespace
 
 Result<bool> is_empty(const csg::Solid& solid, Progress* progress) {
+    if (holds_whole_leaf(solid)) return false;
     const Aabb box = csg::bounds(solid);
     if (box.empty()) return true;
     csg::Solid finite = solid;
@@ -277,9 +343,11 @@ Result<bool> is_empty(const csg::Solid& solid, Progress* progress) {
 
 Result<bool> is_empty(const scene::Scene& scene, const trace::CompiledScene& compiled,
                       Progress* progress) {
+    for (const scene::Part& part : scene.parts) {
+        if (holds_whole_leaf(part.solid)) return false;
+    }
     if (!has_room(compiled.bounds())) return true;
     Prober prober(compiled);
-    if (prober.meets(compiled.bounds(), 4)) return false;
     for (std::size_t i = 0; i < std::min<std::size_t>(scene.parts.size(), 8); ++i) {
         const Aabb box = overlap(first_leaf(scene.parts[i].solid), compiled.bounds());
         if (has_room(box) && prober.meets(box, 2)) return false;

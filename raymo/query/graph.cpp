@@ -110,7 +110,10 @@ std::uint32_t Graph::append_boolean(csg::Op op, std::span<const std::uint32_t> o
     flat.count = static_cast<std::uint32_t>(operands.size());
     operands_.insert(operands_.end(), operands.begin(), operands.end());
     if (op == csg::Op::unite) {
-        for (const std::uint32_t i : operands) flat.box = hull(flat.box, nodes_[i].box);
+        for (const std::uint32_t i : operands) {
+            // An empty box may have its sides exchanged at finite places, which a hull would take in.
+            if (!nodes_[i].box.empty()) flat.box = hull(flat.box, nodes_[i].box);
+        }
     } else if (!operands.empty()) {
         flat.box = nodes_[operands[0]].box;
         if (op == csg::Op::intersection) {

@@ -10,8 +10,9 @@
 namespace raymo::query {
 namespace {
 
-constexpr std::size_t kGeneric = 32;        // directions that fit no model
-constexpr std::size_t kLeafDirections = 8;  // leaves whose own directions are tried
+constexpr std::size_t kGeneric = 32;          // directions that fit no model
+constexpr std::uint64_t kPollEvery = 0x4000;  // nodes between two looks at the user's wish to stop
+constexpr std::size_t kLeafDirections = 8;    // leaves whose own directions are tried
 
 Where complement(Where w) { return static_cast<Where>(2 - static_cast<int>(w)); }
 
@@ -139,6 +140,16 @@ bool Locator::next_operand(Frame& frame, std::uint32_t& operand) {
     return true;
 }
 
+/// One more node; false when no more may be met.
+bool Locator::spend() {
+    if (steps_left_ == 0) return false;
+    --steps_left_;
+    if (steps_left_ % kPollEvery == 0 && progress_ != nullptr && progress_->cancelled()) {
+        steps_left_ = 0;
+    }
+    return steps_left_ > 0;
+}
+
 Where Locator::evaluate(std::uint32_t root, const Place& start, bool beside) {
     frames_.clear();
     nearby_.clear();
@@ -151,6 +162,7 @@ Where Locator::evaluate(std::uint32_t root, const Place& start, bool beside) {
         Where value = Where::out;
         bool decided = false;
         while (!decided) {
+            if (!spend()) return Where::on;
             const Graph::Node& node = graph_[index];
             if (!touches(node.box, place.p, place.error)) {
                 decided = true;

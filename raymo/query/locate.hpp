@@ -13,6 +13,7 @@
 
 #include <vector>
 
+#include "raymo/core/progress.hpp"
 #include "raymo/query/graph.hpp"
 #include "raymo/scene/scene.hpp"
 
@@ -34,6 +35,16 @@ public:
     [[nodiscard]] Where where(std::size_t part, Vec3 p) { return locate(roots_[part], p); }
     /// in or out when all points within `reach` of p (component by component) are, else on.
     [[nodiscard]] Where where_all(Vec3 p, Vec3 reach);
+
+    /// Lets all later answers together meet at most `nodes` nodes, and lets the user stop them. Until
+    /// this is called there is no limit. `progress` may be null.
+    void allow(std::uint64_t nodes, const Progress* progress) {
+        steps_left_ = nodes;
+        progress_ = progress;
+    }
+    /// True when what was allowed has been used up, or the user has stopped it: the answers since
+    /// then are `on` and mean nothing.
+    [[nodiscard]] bool exhausted() const { return steps_left_ == 0; }
 
     [[nodiscard]] const Graph& graph() const { return graph_; }
     [[nodiscard]] std::uint32_t root() const { return all_; }
@@ -57,6 +68,7 @@ private:
 
     [[nodiscard]] Where locate(std::uint32_t root, Vec3 p);
     [[nodiscard]] Where evaluate(std::uint32_t root, const Place& start, bool beside);
+    [[nodiscard]] bool spend();
     [[nodiscard]] bool next_operand(Frame& frame, std::uint32_t& operand);
     [[nodiscard]] Where leaf(const csg::LeafNode& node, const Place& outer, bool beside);
 
@@ -66,6 +78,8 @@ private:
     std::uint32_t all_ = 0;
     std::vector<Frame> frames_;
     std::vector<std::uint32_t> nearby_;
+    std::uint64_t steps_left_ = ~std::uint64_t{0};
+    const Progress* progress_ = nullptr;
     std::uint64_t leaves_on_ = 0;  ///< leaves that were on in the last evaluation
     std::vector<Vec3> towards_;    ///< world directions from the point to their centres (a few)
 };

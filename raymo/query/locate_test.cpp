@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <string_view>
 
 #include "raymo/query/test_solids.hpp"
@@ -151,6 +152,42 @@ TEST_CASE("locate: a box of points is in, out, or cut by the surface") {
     CHECK(ball.where_all({0, 0, 0}, {0.5, 0.5, 0.5}) == Where::in);
     CHECK(ball.where_all({3, 0, 0}, {0.5, 0.5, 0.5}) == Where::out);
     CHECK(ball.where_all({1, 0, 0}, {0.5, 0.5, 0.5}) == Where::on);
+}
+
+TEST_CASE("locate: work is limited to what is allowed") {
+    csg::Solid row = sphere(1);
+    for (int i = 0; i < 26; ++i) row = row + move(row, {std::ldexp(3.0, i), 0, 0});
+    Locator many(row);
+    const Vec3 all{1e9, 1e9, 1e9};
+    many.allow(10'000, nullptr);
+    CHECK(many.where_all({0, 0, 0}, all) == Where::on);
+    CHECK(many.exhausted());
+    CHECK(many.where({0, 0, 0}) == Where::on);  // nothing is left to answer with
+    many.allow(10'000, nullptr);
+    CHECK(many.where({0, 0, 0}) == Where::in);
+    CHECK_FALSE(many.exhausted());
+
+    struct Stopped final : Progress {
+        [[nodiscard]] bool cancelled() const override { return true; }
+    } stopped;
+    many.allow(~std::uint64_t{0}, &stopped);
+    static_cast<void>(many.where_all({0, 0, 0}, all));
+    CHECK(many.exhausted());
+}
+
+TEST_CASE("graph: boxes of unions leave out operands that are nothing") {
+    const csg::Solid unit_block = block(1, 1, 1);
+    const auto apart = [&](double at) {
+        return move(unit_block, {at, 0, 0}) & move(unit_block, {at + 50, 0, 0});
+    };
+    Graph graph;
+    const csg::Solid nothing = apart(0) + apart(100);
+    const csg::Solid something = (unit_block + apart(100)) + apart(-300);
+    const std::uint32_t none = graph.add(nothing);
+    CHECK(graph[none].box.empty());
+    const std::uint32_t one = graph.add(something);
+    CHECK(graph[one].box.hi.x == doctest::Approx(1));
+    CHECK(graph[one].box.lo.x == doctest::Approx(0));
 }
 
 }  // namespace
