@@ -1,5 +1,7 @@
 #include "apps/raymo/imports.hpp"
 
+#include <sys/stat.h>
+
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
@@ -23,6 +25,8 @@ std::string folder_of(const std::string& path) {
     return slash == std::string::npos ? std::string() : path.substr(0, slash + 1);
 }
 
+std::string with_slash(const std::string& path) { return path.ends_with('/') ? path : path + '/'; }
+
 }  // namespace
 
 Imports::Imports(const std::string& main, const Console& console) : console_(console) {
@@ -40,9 +44,14 @@ Result<std::string> Imports::load(const std::string& from, const std::string& pa
     if (resolved.empty()) {
         return fail(ErrorCode::io, "can not read " + in_quotes(name) + ": " + std::strerror(errno));
     }
-    if (root_.empty() || !resolved.starts_with(root_)) {
+    const bool is_root = resolved + "/" == root_;
+    if (root_.empty() || (!is_root && !resolved.starts_with(root_))) {
         return fail(ErrorCode::io, in_quotes(path) + " lies outside of the folder of the main file",
                     "move the file into that folder");
+    }
+    if (struct stat info{}; stat(resolved.c_str(), &info) == 0 && S_ISDIR(info.st_mode)) {
+        return fail(ErrorCode::io, in_quotes(path) + " is a folder, not a file",
+                    "name a file in it: import \"" + with_slash(path) + "name.raymo\" as name");
     }
     Attempt<std::string> text = read_text(resolved, console_);
     if (!text) return fail(ErrorCode::io, text.error().message, text.error().hint);

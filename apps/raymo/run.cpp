@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdlib>
 
 #include "apps/raymo/commands/commands.hpp"
@@ -32,8 +33,34 @@ bool wants_color(ColorWhen when, const Console& console) {
            std::string_view(terminal) != "dumb";
 }
 
+/// Whether the argument after this one is its value: "--size", "-D", but not "--json" or "--size=8x8".
+bool takes_next(const std::string& argument) {
+    for (const OptionInfo& o : options()) {
+        const std::size_t dashes = o.name.find("--");
+        const bool is_it =
+            o.name.substr(dashes) == argument || (dashes == 3 && o.name.substr(0, 2) == argument);
+        if (is_it) return !o.value.empty() && argument != "--stats";
+    }
+    return false;
+}
+
+/// Options may stand before the command: "--color always check cup.raymo".
+Args with_command_first(Args args) {
+    std::size_t i = 0;
+    while (i < args.size() && args[i].size() > 1 && args[i].starts_with('-')) {
+        if (args[i] == "--") return args;
+        const bool has_form = args[i] == "--stats" && i + 1 < args.size() && args[i + 1] == "json";
+        i += takes_next(args[i]) || has_form ? 2 : 1;
+    }
+    if (i == 0 || i >= args.size() || find_command(args[i]) == nullptr) return args;
+    std::rotate(args.begin(), args.begin() + static_cast<std::ptrdiff_t>(i),
+                args.begin() + static_cast<std::ptrdiff_t>(i) + 1);
+    return args;
+}
+
 /// The command and what follows it; `raymo FILE -o OUT` is `raymo render FILE -o OUT`.
-Attempt<std::pair<const CommandInfo*, Args>> split(const Args& args) {
+Attempt<std::pair<const CommandInfo*, Args>> split(const Args& given) {
+    const Args args = with_command_first(given);
     const std::string& first = args[0];
     if (const CommandInfo* command = find_command(first)) {
         if (!command->available) {

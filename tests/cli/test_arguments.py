@@ -78,6 +78,21 @@ class Arguments(CommandLine):
             self.write("p.json", text)
             self.run_raymo("check", "cup.raymo", "--params", "p.json", code=2)
 
+    def test_options_may_stand_before_the_command(self):
+        for options in (["--color=never"], ["--color", "always"], ["--quiet"], ["--stats"], ["--stats", "json"],
+                        ["-D", "height=20", "--threads", "1"]):
+            after = self.run_raymo("check", *options, "cup.raymo")
+            before = self.run_raymo(*options, "check", "cup.raymo")
+            self.assertEqual(before.stdout, after.stdout)
+        self.write("bad.raymo", "part a = spere(3)\n")
+        self.assertIn("\033[", self.run_raymo("--color=always", "check", "bad.raymo", code=1).stderr)
+        done = self.run_raymo("--color", "always", "measure", "cup.raymo", code=2)
+        self.assertIn("not available yet", done.stderr)
+        # A value is no command, and a file called like one is given as ./check.
+        self.assertIn("no FILE", self.run_raymo("--view", "check", code=2).stderr)
+        self.run_raymo("--size", "8x8", "cup.raymo", "-o", "a.png")
+        self.assertEqual(self.files(), ["a.png", "bad.raymo", "cup.raymo"])
+
     def test_color_only_when_asked_for(self):
         self.write("bad.raymo", "part a = spere(3)\n")
         plain = self.run_raymo("check", "bad.raymo", code=1).stderr

@@ -108,6 +108,12 @@ class Pictures(CommandLine):
         os.symlink("/etc/passwd", self.folder / "passwd.raymo")
         self.write("link.raymo", 'import "passwd.raymo" as g\npart p = sphere(1)\n')
         self.assertIn("outside", self.run_raymo("check", "link.raymo", code=1).stderr)
+        self.write("folder.raymo", 'import "." as g\npart p = sphere(1)\n')
+        self.assertIn("is a folder", self.run_raymo("check", "folder.raymo", code=1).stderr)
+        self.write("folder.raymo", 'import "lib" as g\npart p = sphere(1)\n')
+        self.assertIn('import "lib/name.raymo"', self.run_raymo("check", "folder.raymo", code=1).stderr)
+        self.write("folder.raymo", 'import ".." as g\npart p = sphere(1)\n')
+        self.assertIn("outside", self.run_raymo("check", "folder.raymo", code=1).stderr)
         self.write("none.raymo", 'import "nowhere.raymo" as g\npart p = sphere(1)\n')
         self.assertIn("none.raymo:1:", self.run_raymo("check", "none.raymo", code=1).stderr)
 
