@@ -277,11 +277,16 @@ bool Evaluator::check_domain(NodeId domain_id, const std::string& name, const Va
         }
         const bool is_open = domain.op == Operator::range_open;
         const double x = value.number();
-        if (!(x >= low && (is_open ? x < high : x <= high))) {
+        // A range may go down.
+        const bool rises = step_size > 0.0;
+        const bool begins = rises ? x >= low : x <= low;
+        const bool ends = is_open ? (rises ? x < high : x > high) : (rises ? x <= high : x >= high);
+        if (!begins || !ends) {
             return fail(
                 ErrorCode::out_of_range, where,
                 fmt::format("the parameter `{}` must be from {} to {}", name, number_text(low),
-                            is_open ? "below " + number_text(high) : number_text(high)),
+                            is_open ? (rises ? "below " : "above ") + number_text(high)
+                                    : number_text(high)),
                 {}, label);
         }
         const double steps = (x - low) / step_size;
