@@ -22,6 +22,7 @@ struct BaseRay {
     double error = 0.0;    ///< of o
     double start_error = 0.0;  ///< distance of the start from its surface, at most
     double step = 0.0;         ///< how far the ray was moved aside
+    Vec3 moved;                ///< by this
 
     [[nodiscard]] double to_s(double t) const { return t / t_per_s - shift; }
 };

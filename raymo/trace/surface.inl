@@ -60,7 +60,7 @@ inline Surface<R> surface_at(const CompiledSolid& base, Triple<R> o, Triple<R> d
     out.z = R(base.centre.z) + (o.z + d.z * s) * inverse;
     const Triple<R> point{out.x, out.y, out.z};
     out.point_error =
-        (error * facing + R(4.0) * unit_roundoff * (size(o) + lane_abs(s))) * inverse +
+        (error * facing + step + R(4.0) * unit_roundoff * (size(o) + lane_abs(s))) * inverse +
         two * unit_roundoff * (size(point) + R(max_norm(base.centre)));
     return out;
 }

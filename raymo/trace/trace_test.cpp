@@ -115,7 +115,6 @@ TEST_CASE("trace: a ray that starts on a surface does not meet it again") {
     std::uniform_real_distribution<double> uniform(-1, 1);
     int met = 0;
     for (int i = 0; i < 20000; ++i) {
-        const Vec3 from{uniform(random), uniform(random), 5.0};
         RayQuery query;
         query.ray = {{0, 0, 5}, Vec3{uniform(random), uniform(random), 0} * 0.2 + Vec3{0, 0, -1}};
         Hit hit;

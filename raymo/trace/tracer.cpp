@@ -142,8 +142,10 @@ Hit Tracer::State::hit_of(const Walker<L>& w, int i, const BaseRay& ray,
     }
     const double sign = cuts ? -1.0 : 1.0;
     n = {sign * n.x, sign * n.y, sign * n.z};
+    // The place is told on the ray as it was given, also when it was moved aside to be traced.
+    const Vec3 given = ray.o - ray.moved;
     const Surface<double> surface =
-        surface_at(data->solids.front(), Triple<double>{ray.o.x, ray.o.y, ray.o.z},
+        surface_at(data->solids.front(), Triple<double>{given.x, given.y, given.z},
                    Triple<double>{ray.d.x, ray.d.y, ray.d.z}, n, event.t, event.error, ray.shift,
                    ray.t_per_s, ray.step);
     Hit hit;
