@@ -70,6 +70,9 @@ inline void close_window(const Window<R>& w, const LocalRay<R>& ray, R length, M
     const R limit = (R(kDegenerate) + R(1024.0) * (ray.ex + ray.ey + ray.ez)) / length;
     const M met = lane_and(possible, w.enter_first <= w.exit_last);
     out.valid[i] = lane_and(possible, w.exit - w.enter > enter_error + exit_error);
+    out.touched = lane_and(met, lane_not(out.valid[i]));
+    out.touch_lo = w.enter_first;
+    out.touch_hi = w.exit_last;
     out.degenerate = lane_and(met, lane_or(enter_error > limit, exit_error > limit));
     out.enter[i] = w.enter;
     out.exit[i] = w.exit;

@@ -10,6 +10,7 @@ namespace raymo::solids {
 template <int N>
 inline void append(const LaneSpans<double, bool, N>& lanes, SpanList& out) {
     if (lanes.degenerate) out.set_degenerate();
+    if (lanes.touched) out.set_touch(lanes.touch_lo, lanes.touch_hi);
     for (int i = 0; i < N; ++i) {
         if (!lanes.valid[i]) continue;
         out.push(

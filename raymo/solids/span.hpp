@@ -38,13 +38,16 @@ struct Span {
     SpanEnd exit;
 };
 
-/// Spans of one leaf along one ray: ascending, disjoint. Spans thinner than the sum of their ends' errors are left out.
+/// Spans of one leaf along one ray: ascending, disjoint. A span thinner than the sum of its ends' errors is left out, as
+/// nothing; but where it may be is told (a touch), since the same surface, computed in another frame, may show a span
+/// there.
 class SpanList {
 public:
     void clear() {
         count_ = 0;
         spill_.clear();
         degenerate_ = false;
+        touched_ = false;
     }
     void push(const Span& span) {
         if (count_ < inline_.size()) {
@@ -57,6 +60,15 @@ public:
     /// The ray runs in the boundary to within rounding: the spans are not certain (see kDegenerate).
     void set_degenerate() { degenerate_ = true; }
     [[nodiscard]] bool degenerate() const { return degenerate_; }
+    /// The ray may be inside somewhere in [lo, hi], but nowhere for certain. At most one touch is kept.
+    void set_touch(double lo, double hi) {
+        touch_lo_ = lo;
+        touch_hi_ = hi;
+        touched_ = true;
+    }
+    [[nodiscard]] bool touched() const { return touched_; }
+    [[nodiscard]] double touch_lo() const { return touch_lo_; }
+    [[nodiscard]] double touch_hi() const { return touch_hi_; }
     [[nodiscard]] std::size_t size() const { return count_; }
     [[nodiscard]] const Span& operator[](std::size_t i) const {
         return i < inline_.size() ? inline_[i] : spill_[i - inline_.size()];
@@ -67,6 +79,9 @@ private:
     std::vector<Span> spill_;
     std::size_t count_ = 0;
     bool degenerate_ = false;
+    bool touched_ = false;
+    double touch_lo_ = 0.0;
+    double touch_hi_ = 0.0;
 };
 
 /// Up to N spans of as many rays as R has lanes. `valid[i]` says for which lanes span i exists; `face` is a small whole
@@ -75,6 +90,8 @@ template <class R, class M, int N>
 struct LaneSpans {
     M valid[N];
     M degenerate;
+    M touched;  ///< see SpanList::set_touch
+    R touch_lo, touch_hi;
     R enter[N], exit[N];
     R enter_error[N], exit_error[N];
     R enter_face[N], exit_face[N];

@@ -49,8 +49,8 @@ HWY_INLINE Event event_at(const Placing& at, double s, double error, std::uint16
     const double rounding =
         2.0 * kUnitRoundoff * (std::fabs(at.t0) + std::fabs(at.shift) + std::fabs(s));
     const double total = std::isfinite(s) ? error + rounding : 0.0;
-    return {t - total, t,     total, t - (total + at.slack * total), at.leaf, at.context,
-            face,      enter, false};
+    return {t - total, t,     total, t - (total + at.slack * total), at.leaf, at.context, face,
+            enter,     false, false};
 }
 
 template <int L>
@@ -58,6 +58,18 @@ HWY_INLINE void add_span(const Walker<L>& w, Lane& lane, const Event& enter, con
     if (w.mode != Mode::all && (exit.hi() < lane.start || enter.lo > lane.limit)) return;
     lane.insert(enter);
     if (exit.lo < kInfinity) lane.insert(exit);
+}
+
+/// Marks that the leaf may be touched between two places, without being entered for certain.
+template <int L>
+HWY_INLINE void add_touch(const Walker<L>& w, Lane& lane, const Placing& at, double from,
+                          double to) {
+    const double middle = 0.5 * (from + to);
+    Event event = event_at(at, middle, 0.5 * (to - from), 0, true);
+    event.near = kInfinity;
+    event.idle = true;
+    if (w.mode != Mode::all && (event.hi() < lane.start || event.lo > lane.limit)) return;
+    lane.insert(event);
 }
 
 /// How far to step aside: clear of the boundary over the whole leaf, but little compared to the leaf.
@@ -166,6 +178,7 @@ HWY_INLINE void add_spans(const Walker<L>& w, Lane& lane, const Frame& frame, co
         add_uncertain(w, lane, event_at(at, -reach, 0.0, 0, true), at.t0 + (at.shift + reach),
                       sidestep(frame, local.place_error) * w.contexts[at.context].size);
     }
+    if (spans.touched()) add_touch(w, lane, at, spans.touch_lo(), spans.touch_hi());
     for (std::size_t i = 0; i < spans.size(); ++i) {
         const solids::Span& span = spans[i];
         add_span(w, lane, event_at(at, span.enter.s, span.enter.error, span.enter.face, true),
@@ -229,7 +242,8 @@ HWY_INLINE void open_leaf(Walker<8>& w, std::uint32_t context, std::uint32_t ind
                 lane_spans(kernel, local.ray, spans);
                 const std::uint32_t uncertain = bits(spans.degenerate) & here;
                 std::uint32_t valid[kSpans];
-                std::uint32_t any = uncertain;
+                const std::uint32_t touched = bits(spans.touched) & here;
+                std::uint32_t any = uncertain | touched;
                 for (int k = 0; k < kSpans; ++k) any |= valid[k] = bits(spans.valid[k]) & here;
                 if (any == 0) continue;
                 alignas(64) double shift[8];
@@ -248,6 +262,18 @@ HWY_INLINE void open_leaf(Walker<8>& w, std::uint32_t context, std::uint32_t ind
                         add_uncertain(w, w.lanes[first + i], event_at(at, -reach, 0.0, 0, true),
                                       at.t0 + (at.shift + reach),
                                       sidestep(frame, place[i]) * c.size);
+                    }
+                }
+                if (touched != 0) {
+                    alignas(64) double from[8];
+                    alignas(64) double to[8];
+                    store(spans.touch_lo, from);
+                    store(spans.touch_hi, to);
+                    for (std::uint32_t rest = touched; rest != 0; rest &= rest - 1) {
+                        const int i = __builtin_ctz(rest);
+                        add_touch(w, w.lanes[first + i],
+                                  {c.t0[first + i], shift[i], slack[i], index, context}, from[i],
+                                  to[i]);
                     }
                 }
                 for (int k = 0; k < kSpans; ++k) {

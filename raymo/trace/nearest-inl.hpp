@@ -46,6 +46,8 @@ HWY_INLINE int spans_of(Walker<8>& w, std::uint32_t index, int first, SpanInLane
         load(c.d[0] + first), load(c.d[1] + first), load(c.d[2] + first), load(c.error + first));
     const Lanes slack = start_slack(load(c.start_error + first), local.place_error);
     int count = 0;
+    Mask touched = Lanes(0.0) > Lanes(1.0);
+    Lanes touch_lo(0.0);
     visit_kernel(w, frame, [&]<class K>(const K& kernel) {
         constexpr int kSpans = kSpansInLanes<K>;
         if constexpr (kSpans > 0) {
@@ -59,11 +61,19 @@ HWY_INLINE int spans_of(Walker<8>& w, std::uint32_t index, int first, SpanInLane
                                        found.exit_face[k]);
             }
             trouble = found.degenerate;
+            touched = found.touched;
+            touch_lo = local.shift + found.touch_lo;
             count = kSpans;
         }
     });
     trouble_lo = Lanes(kInfinity);
     if (lane_any(trouble)) trouble_lo = local.shift - Lanes(frame.reach) / lane_sqrt(local.ray.dd);
+    if (lane_any(touched)) {
+        trouble_lo = lane_select(
+            touched, lane_min(trouble_lo, touch_lo - lane_abs(touch_lo) * Lanes(0x1p-50)),
+            trouble_lo);
+        trouble = lane_or(trouble, touched);
+    }
     return count;
 }
 

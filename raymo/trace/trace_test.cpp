@@ -354,6 +354,26 @@ TEST_CASE("trace: maps that stretch along oblique axes keep coincident faces tog
     }
 }
 
+TEST_CASE("trace: one solid written in two ways cancels, at the limb too") {
+    const auto there_and_back = [](const Solid& s) {
+        return moved(moved(s, {100, 100, 100}), {-100, -100, -100});
+    };
+    for (const Solid& s : {sphere(1.0), moved(cylinder(1.0, 2.0), {0, 0, -1}),
+                           turned(block({1, 2, 3}), {1, 2, 3}, 40)}) {
+        const auto compiled = compile(
+            scene_of({cut(s, there_and_back(s)), moved(cut(there_and_back(s), s), {0, 0, 9})}));
+        REQUIRE(compiled.has_value());
+        Tracer tracer(*compiled);
+        std::vector<std::vector<PartSpan>> spans;
+        for (int k = 0; k < 4000; ++k) {
+            tracer.spans({{-5, 1.0 - 1e-16 * k * k, 0}, {1, 0, 0}}, spans);
+            CHECK(spans[0].empty());
+            tracer.spans({{-5, 1.0 - 1e-16 * k * k, 9}, {1, 0, 0}}, spans);
+            CHECK(spans[1].empty());
+        }
+    }
+}
+
 TEST_CASE("trace: transformations that together leave no size are an error") {
     const Solid thin = csg::transform(block({10, 10, 10}), scaling({1, 1, 1e-60})).value();
     const auto gone = compile(scene_of({csg::transform(thin, scaling({1, 1, 1e-60})).value()}));

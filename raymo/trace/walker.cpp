@@ -163,7 +163,7 @@ const Event& Walker<L>::shown_by(int index, std::size_t end, const Change& chang
     const Event* any = nullptr;
     for (std::size_t i = lane.head; i < end; ++i) {
         const Event& event = lane.events[i];
-        if (event.uncertain) continue;
+        if (event.uncertain || event.idle) continue;
         if (any == nullptr) any = &event;
         const bool cuts = data->looks[leaf_of(event).look].cuts != contexts[event.context].cuts;
         if ((event.enter != cuts) != change.inside) continue;
@@ -194,7 +194,7 @@ csg::MaterialId Walker<L>::material_of(const Lane& lane, const Event& event,
     csg::MaterialId found = csg::kNoMaterial;
     for (std::size_t i = 0; i < end; ++i) {
         const Event& e = lane.events[i];
-        if (e.uncertain || !e.enter) continue;
+        if (e.uncertain || e.idle || !e.enter) continue;
         const Look& other = data->looks[leaf_of(e).look];
         const csg::MaterialId material =
             other.material != csg::kNoMaterial ? other.material : contexts[e.context].material;
@@ -230,6 +230,7 @@ void Walker<L>::settle(int index, std::size_t end) {
             lane.stepped_aside = true;
             continue;
         }
+        if (event.idle) continue;
         at_start = at_start || event.near <= lane.start;
         flip(index, event);
     }

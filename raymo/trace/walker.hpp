@@ -36,6 +36,7 @@ struct Event {
     std::uint16_t face;
     bool enter;
     bool uncertain;  ///< no crossing: the ray runs in the leaf's boundary from here on
+    bool idle;       ///< nothing changes, but the leaf may be touched here: joins what it overlaps
 
     [[nodiscard]] double hi() const { return t + error; }
 };

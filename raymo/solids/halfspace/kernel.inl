@@ -28,6 +28,8 @@ inline void halfspace_spans(const LocalRay<R>& ray, LaneSpans<R, M, 1>& out) {
     const M from_infinity = lane_or(all, rising);
     const M to_infinity = lane_or(all, lane_not(rising));
     out.valid[0] = lane_not(none);
+    out.touched = R(0.0) > R(1.0);
+    out.touch_lo = out.touch_hi = R(0.0);
     out.degenerate = lane_and(near, lane_or(parallel, uncertain));
     out.enter[0] = lane_select(from_infinity, R(0.0) - inf, s);
     out.exit[0] = lane_select(to_infinity, inf, s);

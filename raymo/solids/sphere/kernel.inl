@@ -17,11 +17,16 @@ inline void sphere_spans(const LocalRay<R>& ray, LaneSpans<R, M, 1>& out) {
     out.enter_face[0] = R(0.0);
     out.exit_face[0] = R(0.0);
     out.enter[0] = out.exit[0] = out.enter_error[0] = out.exit_error[0] = R(0.0);
-    if (!lane_any(out.valid[0])) return;
+    // Where the ray is inside at all, h^2 d.d <= room + slack.
+    out.touched = lane_and(lane_not(out.valid[0]), room > R(0.0) - slack);
+    out.touch_lo = out.touch_hi = R(0.0);
+    if (!lane_any(lane_or(out.valid[0], out.touched))) return;
     const R half = lane_sqrt(lane_max(room, slack));
     const R per_length = R(1.0) / lane_sqrt(ray.dd);
     const R h = half * per_length;
     const R error = slack / half * per_length;
+    out.touch_hi = R(1.5) * half * per_length;
+    out.touch_lo = R(0.0) - out.touch_hi;
     out.enter[0] = R(0.0) - h;
     out.exit[0] = h;
     out.enter_error[0] = error;

@@ -127,7 +127,8 @@ inline void torus_spans(double a, double b, const LocalRay<R>& ray, LaneSpans<R,
         out.enter_error[i] = out.exit_error[i] = zero;
         out.enter_face[i] = out.exit_face[i] = zero;
     }
-    out.degenerate = never;
+    out.degenerate = out.touched = never;
+    out.touch_lo = out.touch_hi = zero;
 
     // Unit ball and slab |z| <= b, both a little widened.
     const R length = lane_sqrt(ray.dd);
