@@ -18,8 +18,9 @@ inline constexpr double kPointError = 24.0 * kUnitRoundoff;
 
 /// A surface crossing is called degenerate when its position along the ray is uncertain by more than this part of the
 /// leaf's size: the ray runs in the surface to within rounding. Such a ray is moved aside by kSidestep times its
-/// position error and traced again. With the crossing uncertain by less than 2^-12 the ray departs from the surface by
-/// more than 2^-1 * 2^-12... so a step of 2^14 errors takes it clear of the surface over the whole leaf.
+/// position error e and traced again. A crossing is uncertain by e / sin(angle between ray and surface), so more than
+/// 2^-12 of the size means a sine below 2^12 e / size: over the whole leaf, twice its size, the ray departs from the
+/// surface by less than 2^13 e, and a step of 2^14 e takes it clear.
 inline constexpr double kDegenerate = 0x1p-12;
 inline constexpr double kSidestep = 0x1p14;
 

@@ -291,14 +291,21 @@ Result<void> Flattener::add_leaf(Work& work, const csg::LeafNode& node, const Vi
     Pending pending{};
     pending.endless = !item.box.bounded();
     if (pending.endless) frame.reach = std::numeric_limits<double>::infinity();
+    pending.primitive = node.primitive;
+    enlist(work, at, item, pending, frame, place, node.span);
+    return {};
+}
+
+/// Puts a leaf or an instance, of which `item` has the box, on the lists.
+void Flattener::enlist(Work& work, const Visit& at, Item item, Pending pending, const Frame& frame,
+                       const Placement& place, SourceSpan span) {
     pending.leaf.centre = place.map.offset;
     pending.leaf.frame = tables_.frame(frame);
-    const Vec3 moved = place.linear_error * Vec3{1, 1, 1} + place.offset_error;
-    pending.displacement = norm(moved);
-    pending.linear_error = norm(place.linear_error * Vec3{1, 1, 1});
+    const Vec3 tilt = place.linear_error * Vec3{1, 1, 1};
+    pending.displacement = norm(tilt + place.offset_error);
+    pending.linear_error = norm(tilt);
     pending.material = at.material;
-    pending.span = node.span;
-    pending.primitive = node.primitive;
+    pending.span = span;
     pending.item = static_cast<std::uint32_t>(work.items.size());
     item.parent = at.item;
     item.link = static_cast<std::uint32_t>(work.pending.size());
@@ -306,7 +313,6 @@ Result<void> Flattener::add_leaf(Work& work, const csg::LeafNode& node, const Vi
     item.subtracted = at.subtracted;
     work.items.push_back(item);
     work.pending.push_back(pending);
-    return {};
 }
 
 Result<bool> Flattener::add_instance(Work& work, const Visit& at, int depth) {
@@ -344,22 +350,9 @@ Result<bool> Flattener::add_instance(Work& work, const Visit& at, int depth) {
     const CompiledSolid& solid = data_.solids[index];
     const Placement place = at.place.then_inner(
         {Mat3::diagonal(1.0 / solid.scale, 1.0 / solid.scale, 1.0 / solid.scale), solid.centre});
-    Pending pending{};
-    pending.leaf.centre = place.map.offset;
-    pending.leaf.frame = tables_.frame(frame_of(place.map, kInstanceType, index));
-    const Vec3 moved = place.linear_error * Vec3{1, 1, 1} + place.offset_error;
-    pending.displacement = norm(moved);
-    pending.material = at.material;
-    pending.span = node.span;
-    pending.item = static_cast<std::uint32_t>(work.items.size());
     Item item{};
     item.box = transformed(at.place.map, solid.bounds);
-    item.parent = at.item;
-    item.link = static_cast<std::uint32_t>(work.pending.size());
-    item.kind = Kind::leaf;
-    item.subtracted = at.subtracted;
-    work.items.push_back(item);
-    work.pending.push_back(pending);
+    enlist(work, at, item, {}, frame_of(place.map, kInstanceType, index), place, node.span);
     return true;
 }
 

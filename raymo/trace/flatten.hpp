@@ -10,6 +10,8 @@
 
 namespace raymo::trace {
 
+struct Placement;
+
 /// Builds compiled solids into a scene's data; a solid that is used many times becomes one compiled
 /// solid with instances.
 class Flattener {
@@ -31,6 +33,8 @@ private:
     [[nodiscard]] Result<void> expand(Work& work, std::span<const csg::Solid> parts, int depth);
     [[nodiscard]] Result<bool> add_instance(Work& work, const Visit& at, int depth);
     [[nodiscard]] Result<void> add_leaf(Work& work, const csg::LeafNode& node, const Visit& at);
+    void enlist(Work& work, const Visit& at, Item item, Pending pending, const Frame& frame,
+                const Placement& place, SourceSpan span);
     void combine_boxes(Work& work) const;
     [[nodiscard]] Result<void> check_bounded(const Work& work) const;
     void make_groups(Work& work, CompiledSolid& out);
