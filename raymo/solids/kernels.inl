@@ -9,3 +9,5 @@
 #include "raymo/solids/halfspace/kernel.inl"
 #include "raymo/solids/sphere/kernel.inl"
 #include "raymo/solids/torus/kernel.inl"
+//
+#include "raymo/solids/torus/normal.inl"

@@ -21,10 +21,9 @@ void Block::Kernel::spans(const LocalRay<double>& ray, SpanList& out) const {
     append(lanes, out);
 }
 
-Vec3 Block::Kernel::normal(Vec3, std::uint16_t face) const {
-    Vec3 n;
-    n[face / 2] = face % 2 == 0 ? -1.0 : 1.0;
-    return n;
+Vec3 Block::Kernel::normal(Vec3 p, std::uint16_t face) const {
+    block_normal<double>(face, p.x, p.y, p.z);
+    return p;
 }
 
 Where Block::Kernel::where(Vec3 p, Vec3 e) const {

@@ -10,3 +10,15 @@ inline void block_spans(const LocalRay<R>& ray, LaneSpans<R, M, 1>& out) {
     clip_slab(w, ray.oz, ray.dz, ray.ez, length, 4.0, 5.0);
     close_window(w, ray, length, length > R(0.0), 0, out);
 }
+
+// The normal on face `face`, in the place of a point there.
+template <class R>
+inline void block_normal(R face, R& x, R& y, R& z) {
+    const auto side = [&](double low) {
+        return lane_select(face == R(low), R(-1.0),
+                           lane_select(face == R(low + 1.0), R(1.0), R(0.0)));
+    };
+    x = side(0.0);
+    y = side(2.0);
+    z = side(4.0);
+}

@@ -32,12 +32,8 @@ void Cone::Kernel::spans(const LocalRay<double>& ray, SpanList& out) const {
 }
 
 Vec3 Cone::Kernel::normal(Vec3 p, std::uint16_t face) const {
-    if (face == 1) return {0.0, 0.0, -1.0};
-    if (face == 2) return {0.0, 0.0, 1.0};
-    // The gradient of sqrt(x^2 + y^2) - q(z): never zero, also at the tip.
-    const double g = 0.5 * (1.0 - ratio_);
-    const double r = std::hypot(p.x, p.y);
-    return r > 0.0 ? Vec3{p.x / r, p.y / r, g} : Vec3{0.0, 0.0, 1.0};
+    cone_normal<double>(ratio_, face, p.x, p.y, p.z);
+    return p;
 }
 
 Where Cone::Kernel::where(Vec3 p, Vec3 e) const {

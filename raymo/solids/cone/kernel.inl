@@ -59,3 +59,17 @@ inline void cone_spans(double k, const LocalRay<R>& ray, LaneSpans<R, M, 1>& out
     clip_slab(w, ray.oz, ray.dz, ray.ez, length, 1.0, 2.0);
     close_window(w, ray, length, lane_or(lane_not(flat), d + a * slack > zero), 0, out);
 }
+
+// The normal on face `face`, in the place of a point there: of the mantle, the gradient of sqrt(x^2 + y^2) - q(z), which
+// is never zero. At the tip, and as near to it as squares are 0, that is the axis.
+template <class R>
+inline void cone_normal(double ratio, R face, R& x, R& y, R& z) {
+    const auto mantle = face == R(0.0);
+    const R r = lane_sqrt(x * x + y * y);
+    const auto round = lane_and(mantle, r > R(0.0));
+    const R inverse = R(1.0) / lane_max(r, R(0x1p-1000));
+    x = lane_select(round, x * inverse, R(0.0));
+    y = lane_select(round, y * inverse, R(0.0));
+    z = lane_select(mantle, lane_select(round, R(0.5 * (1.0 - ratio)), R(1.0)),
+                    lane_select(face == R(1.0), R(-1.0), R(1.0)));
+}

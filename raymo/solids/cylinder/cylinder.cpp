@@ -28,8 +28,8 @@ void Cylinder::Kernel::spans(const LocalRay<double>& ray, SpanList& out) const {
 }
 
 Vec3 Cylinder::Kernel::normal(Vec3 p, std::uint16_t face) const {
-    if (face == 0) return {p.x, p.y, 0.0};
-    return {0.0, 0.0, face == 1 ? -1.0 : 1.0};
+    cylinder_normal<double>(face, p.x, p.y, p.z);
+    return p;
 }
 
 Where Cylinder::Kernel::where(Vec3 p, Vec3 e) const {

@@ -39,3 +39,12 @@ inline void cylinder_spans(const LocalRay<R>& ray, LaneSpans<R, M, 1>& out) {
     clip_slab(w, ray.oz, ray.dz, ray.ez, length, 1.0, 2.0);
     close_window(w, ray, length, room + slack > R(0.0), 0, out);
 }
+
+// The normal on face `face`, in the place of a point there.
+template <class R>
+inline void cylinder_normal(R face, R& x, R& y, R& z) {
+    const auto mantle = face == R(0.0);
+    x = lane_select(mantle, x, R(0.0));
+    y = lane_select(mantle, y, R(0.0));
+    z = lane_select(mantle, R(0.0), lane_select(face == R(1.0), R(-1.0), R(1.0)));
+}

@@ -26,7 +26,10 @@ void Halfspace::Kernel::spans(const LocalRay<double>& ray, SpanList& out) const 
     append(lanes, out);
 }
 
-Vec3 Halfspace::Kernel::normal(Vec3, std::uint16_t) const { return {0.0, 0.0, 1.0}; }
+Vec3 Halfspace::Kernel::normal(Vec3 p, std::uint16_t) const {
+    halfspace_normal(p.x, p.y, p.z);
+    return p;
+}
 
 Where Halfspace::Kernel::where(Vec3 p, Vec3 e) const {
     return p.z > e.z ? Where::out : (p.z < -e.z ? Where::in : Where::on);

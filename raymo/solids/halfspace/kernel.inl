@@ -38,3 +38,10 @@ inline void halfspace_spans(const LocalRay<R>& ray, LaneSpans<R, M, 1>& out) {
     out.enter_face[0] = R(0.0);
     out.exit_face[0] = R(0.0);
 }
+
+// The normal, in the place of a point of the plane.
+template <class R>
+inline void halfspace_normal(R& x, R& y, R& z) {
+    x = y = R(0.0);
+    z = R(1.0);
+}

@@ -8,6 +8,8 @@
 namespace raymo::solids {
 namespace {
 #include "raymo/solids/torus/kernel.inl"
+//
+#include "raymo/solids/torus/normal.inl"
 
 /// Half the angle over which the generating circle lies outside the axis.
 double half_turn(double a, double b) { return a >= b ? std::numbers::pi : std::acos(-a / b); }
@@ -30,11 +32,8 @@ void Torus::Kernel::spans(const LocalRay<double>& ray, SpanList& out) const {
 }
 
 Vec3 Torus::Kernel::normal(Vec3 p, std::uint16_t) const {
-    const double q = std::hypot(p.x, p.y);
-    if (!(q > 0.0)) return {0.0, 0.0, std::copysign(1.0, p.z)};
-    const double k = (q - a_) / q;
-    const Vec3 n{k * p.x, k * p.y, p.z};
-    return max_norm(n) > 0.0 ? n : Vec3{0.0, 0.0, 1.0};
+    torus_normal(a_, p.x, p.y, p.z);
+    return p;
 }
 
 Where Torus::Kernel::where(Vec3 p, Vec3 e) const {
