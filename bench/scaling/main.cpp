@@ -3,7 +3,6 @@
 // not kept, 2 when a model can not be built.
 
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <cstdio>
 #include <cstring>
@@ -12,13 +11,14 @@
 #include <vector>
 
 #include "raymo/scene/camera.hpp"
-#include "raymo/trace/tracer.hpp"
+#include "raymo/trace/packet.hpp"
 #include "scaling/models.hpp"
 
 namespace {
 
 using raymo::trace::CompiledScene;
-using raymo::trace::Hit;
+using raymo::trace::HitPacket;
+using raymo::trace::RayPacket;
 using raymo::trace::RayQuery;
 using raymo::trace::Tracer;
 
@@ -51,19 +51,19 @@ struct Measured {
 /// One picture's primary rays, in blocks of 4 x 2.
 Measured trace_picture(const CompiledScene& scene, const raymo::scene::View& view, int side) {
     Tracer tracer(scene);
-    std::array<RayQuery, Tracer::kPacket> queries;
-    std::array<Hit, Tracer::kPacket> hits;
-    std::array<bool, Tracer::kPacket> found{};
+    RayPacket rays;
+    HitPacket hits;
     Measured result;
     const double start = cpu_seconds();
     for (int y = 0; y < side; y += 2) {
         for (int x = 0; x < side; x += 4) {
-            for (std::size_t i = 0; i < Tracer::kPacket; ++i) {
-                queries[i].ray = view.ray(x + static_cast<double>(i % 4) + 0.5,
-                                          y + static_cast<double>(i / 4) + 0.5);
+            for (int i = 0; i < RayPacket::kSize; ++i) {
+                RayQuery query;
+                query.ray = view.ray(x + i % 4 + 0.5, y + i / 4 + 0.5);
+                rays.set(i, query);
             }
-            tracer.first_hits(queries, hits.data(), found.data());
-            result.hits += static_cast<std::size_t>(std::count(found.begin(), found.end(), true));
+            result.hits += static_cast<std::size_t>(
+                raymo::trace::lane_count(tracer.first_hits(rays, raymo::trace::kAllLanes, hits)));
         }
     }
     result.seconds = cpu_seconds() - start;

@@ -36,6 +36,7 @@ HWY_INLINE Mask operator<(Lanes a, Lanes b) { return {hn::Lt(a.v, b.v)}; }
 HWY_INLINE Mask operator>(Lanes a, Lanes b) { return {hn::Gt(a.v, b.v)}; }
 HWY_INLINE Mask operator<=(Lanes a, Lanes b) { return {hn::Le(a.v, b.v)}; }
 HWY_INLINE Mask operator>=(Lanes a, Lanes b) { return {hn::Ge(a.v, b.v)}; }
+HWY_INLINE Mask operator==(Lanes a, Lanes b) { return {hn::Eq(a.v, b.v)}; }
 HWY_INLINE Lanes lane_sqrt(Lanes a) { return Lanes(hn::Sqrt(a.v)); }
 HWY_INLINE Lanes lane_abs(Lanes a) { return Lanes(hn::Abs(a.v)); }
 HWY_INLINE Lanes lane_select(Mask mask, Lanes yes, Lanes no) {
@@ -54,9 +55,20 @@ HWY_INLINE bool lane_any(Mask a) { return !hn::AllFalse(D(), a.m); }
 
 HWY_INLINE Lanes load(const double* p) { return Lanes(hn::LoadU(D(), p)); }
 HWY_INLINE void store(Lanes a, double* p) { hn::StoreU(a.v, D(), p); }
+/// To floats, each rounded to nearest.
+HWY_INLINE void store_floats(Lanes a, float* out) {
+    const hn::Rebind<float, D> half;
+    hn::StoreU(hn::DemoteTo(half, a.v), half, out);
+}
+
 /// One bit a lane.
 HWY_INLINE std::uint32_t bits(Mask a) {
     std::uint8_t bytes[8] = {};
     hn::StoreMaskBits(D(), a.m, bytes);
     return bytes[0];
+}
+/// And back; bits beyond the lanes do not count.
+HWY_INLINE Mask mask_of(std::uint32_t lanes) {
+    const std::uint8_t bytes[8] = {static_cast<std::uint8_t>(lanes)};
+    return {hn::LoadMaskBits(D(), bytes)};
 }

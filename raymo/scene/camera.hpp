@@ -36,6 +36,15 @@ public:
     /// middle. All rays of one (x, y) meet in the sharp plane.
     [[nodiscard]] Ray ray(double x, double y, double lens_u, double lens_v) const;
 
+    // ray(x, y) starts in eye() and goes along d = corner() + x step_x() + y step_y(), made unit; if parallel, it starts in
+    // eye() + d and goes along forward(). For those who compute many at once.
+    [[nodiscard]] Vec3 eye() const { return eye_; }
+    [[nodiscard]] Vec3 corner() const { return corner_; }
+    [[nodiscard]] Vec3 step_x() const { return step_x_; }
+    [[nodiscard]] Vec3 step_y() const { return step_y_; }
+    [[nodiscard]] Vec3 forward() const { return forward_; }
+    [[nodiscard]] bool parallel() const { return parallel_; }
+
 private:
     Vec3 eye_, corner_, step_x_, step_y_, forward_, lens_x_, lens_y_;
     double focus_;

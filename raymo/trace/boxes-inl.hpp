@@ -7,6 +7,17 @@ using F = hn::CappedTag<float, 8>;
 inline constexpr int kFloats = static_cast<int>(HWY_MIN(8, HWY_LANES(float)));
 using Floats = hn::Vec<F>;
 
+/// One bit a lane, and back.
+HWY_INLINE std::uint32_t float_bits(hn::Mask<F> mask) {
+    std::uint8_t bytes[8] = {};
+    hn::StoreMaskBits(F(), mask, bytes);
+    return bytes[0];
+}
+HWY_INLINE hn::Mask<F> float_mask(std::uint32_t lanes) {
+    const std::uint8_t bytes[8] = {static_cast<std::uint8_t>(lanes)};
+    return hn::LoadMaskBits(F(), bytes);
+}
+
 /// Rays of a packet, as many as fit a vector.
 struct RaysInFloats {
     Floats ox, oy, oz, ix, iy, iz, from, to;
@@ -27,12 +38,11 @@ HWY_INLINE void clip(Floats lo, Floats hi, Floats o, Floats inverse, Floats& ent
     leave = hn::Min(leave, hn::Max(p, q));
 }
 
-/// Puts a box on the list, which is sorted with the nearest last.
+/// Puts a box on the list, which is sorted with the nearest last. There must be room (make_room).
 template <int L>
 HWY_INLINE void put_off(Walker<L>& w, const Unopened& box) {
-    std::size_t i = w.unopened.size();
-    w.unopened.push_back(box);
-    Unopened* list = w.unopened.data();
+    Unopened* list = w.unopened.list();
+    std::size_t i = w.unopened.count++;
     while (i > 0 && list[i - 1].t < box.t) {
         list[i] = list[i - 1];
         --i;
@@ -40,49 +50,143 @@ HWY_INLINE void put_off(Walker<L>& w, const Unopened& box) {
     list[i] = box;
 }
 
+/// Which rays of a packet meet child `k` of a node, and where the first of them does.
+struct Met {
+    std::uint32_t lanes;
+    float near;
+};
+HWY_INLINE Met meet_box(const RaysInFloats* rays, const BvhNode& node, int k) {
+    const F f;
+    Met out{0, 0.0F};
+    Floats least = hn::Set(f, std::numeric_limits<float>::infinity());
+    for (int v = 0; v < 8 / kFloats; ++v) {
+        const RaysInFloats& r = rays[v];
+        Floats enter = r.from;
+        Floats leave = r.to;
+        clip(hn::Set(f, node.lo[0][k]), hn::Set(f, node.hi[0][k]), r.ox, r.ix, enter, leave);
+        clip(hn::Set(f, node.lo[1][k]), hn::Set(f, node.hi[1][k]), r.oy, r.iy, enter, leave);
+        clip(hn::Set(f, node.lo[2][k]), hn::Set(f, node.hi[2][k]), r.oz, r.iz, enter, leave);
+        const auto hit = hn::Le(enter, leave);
+        least = hn::Min(least, hn::IfThenElse(hit, enter, least));
+        out.lanes |= float_bits(hit) << (v * kFloats);
+    }
+    out.near = hn::GetLane(hn::MinOfLanes(f, least));
+    return out;
+}
+
+/// All rays of a packet together: a box that the beam misses is missed by every ray. Only where they all point into one
+/// octant.
+struct Beam {
+    bool usable;
+    bool forward[3];          ///< towards larger coordinates
+    float nearest[3];         ///< coordinate of the origins that is nearest to what lies ahead
+    float furthest[3];        ///< and furthest from it
+    float least[3], most[3];  ///< of the inverse directions
+    float from, to;
+};
+HWY_INLINE Beam beam_of(const Context<8>& c, std::uint32_t lanes) {
+    const F f;
+    Beam beam{};
+    beam.usable = true;
+    const auto extent = [&](const float* values, float& least, float& most) {
+        Floats low = hn::Set(f, std::numeric_limits<float>::infinity());
+        Floats high = hn::Neg(low);
+        for (int v = 0; v < 8 / kFloats; ++v) {
+            const Floats x = hn::Load(f, values + v * kFloats);
+            const auto counts = float_mask(lanes >> (v * kFloats));
+            low = hn::Min(low, hn::IfThenElse(counts, x, low));
+            high = hn::Max(high, hn::IfThenElse(counts, x, high));
+        }
+        least = hn::GetLane(hn::MinOfLanes(f, low));
+        most = hn::GetLane(hn::MaxOfLanes(f, high));
+    };
+    for (int a = 0; a < 3; ++a) {
+        extent(c.inverse[a], beam.least[a], beam.most[a]);
+        beam.forward[a] = beam.least[a] > 0.0F;
+        if (beam.least[a] < 0.0F && beam.most[a] > 0.0F) {
+            beam.usable = false;
+            return beam;
+        }
+        float low;
+        float high;
+        extent(c.fo[a], low, high);
+        beam.nearest[a] = beam.forward[a] ? high : low;
+        beam.furthest[a] = beam.forward[a] ? low : high;
+    }
+    float none;
+    extent(c.from, beam.from, none);
+    extent(c.to, none, beam.to);
+    return beam;
+}
+/// The children of a node that the beam may meet, one bit each.
+HWY_INLINE std::uint32_t meet_node(const Beam& beam, const BvhNode& node) {
+    const F f;
+    std::uint32_t met = 0;
+    for (int v = 0; v < BvhNode::kWidth; v += kFloats) {
+        Floats enter = hn::Set(f, beam.from);
+        Floats leave = hn::Set(f, beam.to);
+        for (int a = 0; a < 3; ++a) {
+            const Floats least = hn::Set(f, beam.least[a]);
+            const Floats most = hn::Set(f, beam.most[a]);
+            const Floats front =
+                hn::Sub(hn::Load(f, (beam.forward[a] ? node.lo[a] : node.hi[a]) + v),
+                        hn::Set(f, beam.nearest[a]));
+            const Floats back =
+                hn::Sub(hn::Load(f, (beam.forward[a] ? node.hi[a] : node.lo[a]) + v),
+                        hn::Set(f, beam.furthest[a]));
+            enter = hn::Max(enter, hn::Min(hn::Mul(front, least), hn::Mul(front, most)));
+            leave = hn::Min(leave, hn::Max(hn::Mul(back, least), hn::Mul(back, most)));
+        }
+        met |= float_bits(hn::Le(enter, leave)) << v;
+    }
+    return met;
+}
+
+/// A packet of rays against the children of a node, for the walk of a simple solid.
+HWY_INLINE void open_node(Walker<8>& w, const Unopened& box, std::uint32_t lanes,
+                          const Beam& beam) {
+    const Context<8>& c = w.contexts[0];
+    const BvhNode& node = c.solid->nodes[box.ref];
+    RaysInFloats rays[8 / kFloats];
+    for (int v = 0; v < 8 / kFloats; ++v) rays[v] = rays_in_floats(c, v * kFloats);
+    ++w.boxes;
+    w.unopened.make_room(BvhNode::kWidth);
+    std::uint32_t met = beam.usable ? meet_node(beam, node) : 0xffU;
+    for (; met != 0; met &= met - 1) {
+        const int k = __builtin_ctz(met);
+        if (node.lo[0][k] > node.hi[0][k]) break;
+        Met by = meet_box(rays, node, k);
+        by.lanes &= lanes;
+        if (by.lanes == 0) continue;
+        // Rays that do not count may be nearer: that opens the box too early, never too late.
+        put_off(w, {by.near, node.ref[k], 0, node.count[k], static_cast<std::uint8_t>(by.lanes)});
+    }
+}
+
 /// A packet of rays against one box after the other.
 HWY_INLINE void open_node(Walker<8>& w, const Unopened& box, std::uint32_t lanes) {
-    const F f;
     const Context<8>& c = w.contexts[box.context];
     const BvhNode& node = c.solid->nodes[box.ref];
     RaysInFloats rays[8 / kFloats];
     for (int v = 0; v < 8 / kFloats; ++v) rays[v] = rays_in_floats(c, v * kFloats);
     ++w.boxes;
+    w.unopened.make_room(BvhNode::kWidth);
     for (int k = 0; k < BvhNode::kWidth; ++k) {
         if (node.lo[0][k] > node.hi[0][k]) break;
-        std::uint32_t met = 0;
-        alignas(64) float near[8];
-        for (int v = 0; v < 8 / kFloats; ++v) {
-            const RaysInFloats& r = rays[v];
-            Floats enter = r.from;
-            Floats leave = r.to;
-            clip(hn::Set(f, node.lo[0][k]), hn::Set(f, node.hi[0][k]), r.ox, r.ix, enter, leave);
-            clip(hn::Set(f, node.lo[1][k]), hn::Set(f, node.hi[1][k]), r.oy, r.iy, enter, leave);
-            clip(hn::Set(f, node.lo[2][k]), hn::Set(f, node.hi[2][k]), r.oz, r.iz, enter, leave);
-            const auto hit = hn::Le(enter, leave);
-            hn::Store(
-                hn::IfThenElse(hit, enter, hn::Set(f, std::numeric_limits<float>::infinity())), f,
-                near + v * kFloats);
-            std::uint8_t bytes[8] = {};
-            hn::StoreMaskBits(f, hit, bytes);
-            met |= static_cast<std::uint32_t>(bytes[0]) << (v * kFloats);
-        }
-        met &= lanes;
-        if (met == 0) continue;
-        double t = kInfinity;
-        if (box.context == 0) {
-            // Rays that do not count may be nearer: that opens the box too early, never too late.
-            float least = near[0];
-            for (int i = 1; i < 8; ++i) least = near[i] < least ? near[i] : least;
-            t = least;
-        } else {
-            for (std::uint32_t rest = met; rest != 0; rest &= rest - 1) {
-                const int i = __builtin_ctz(rest);
-                const double entry = base_t(c.t0[i], near[i]);
+        Met by = meet_box(rays, node, k);
+        by.lanes &= lanes;
+        if (by.lanes == 0) continue;
+        double t = by.near;
+        if (box.context != 0) {
+            // The rays' own starts differ: each entry is bounded by the nearest of all.
+            t = kInfinity;
+            for (std::uint32_t rest = by.lanes; rest != 0; rest &= rest - 1) {
+                const double entry = base_t(c.t0[__builtin_ctz(rest)], by.near);
                 t = entry < t ? entry : t;
             }
         }
-        put_off(w, {t, node.ref[k], box.context, node.count[k], static_cast<std::uint8_t>(met)});
+        put_off(w,
+                {t, node.ref[k], box.context, node.count[k], static_cast<std::uint8_t>(by.lanes)});
     }
 }
 
@@ -93,6 +197,7 @@ HWY_INLINE void open_node(Walker<1>& w, const Unopened& box, std::uint32_t) {
     const BvhNode& node = c.solid->nodes[box.ref];
     ++w.boxes;
     std::uint32_t met = 0;
+    w.unopened.make_room(BvhNode::kWidth);
     alignas(64) float near[8];
     for (int i = 0; i < 8; i += kFloats) {
         Floats enter = hn::Set(f, c.from[0]);
@@ -102,9 +207,7 @@ HWY_INLINE void open_node(Walker<1>& w, const Unopened& box, std::uint32_t) {
                  hn::Set(f, c.inverse[a][0]), enter, leave);
         }
         hn::Store(enter, f, near + i);
-        std::uint8_t bytes[8] = {};
-        hn::StoreMaskBits(f, hn::Le(enter, leave), bytes);
-        met |= static_cast<std::uint32_t>(bytes[0]) << i;
+        met |= float_bits(hn::Le(enter, leave)) << i;
     }
     for (; met != 0; met &= met - 1) {
         const int k = __builtin_ctz(met);

@@ -26,6 +26,27 @@ HWY_INLINE void lane_spans(const solids::Halfspace::Kernel&, const Ray8& ray,
     halfspace_spans(ray, out);
 }
 
+/// From a place on face `face` to the normal there.
+HWY_INLINE void lane_normal(const solids::Block::Kernel&, Lanes face, Lanes& x, Lanes& y,
+                            Lanes& z) {
+    block_normal(face, x, y, z);
+}
+HWY_INLINE void lane_normal(const solids::Sphere::Kernel&, Lanes, Lanes&, Lanes&, Lanes&) {}
+HWY_INLINE void lane_normal(const solids::Cylinder::Kernel&, Lanes face, Lanes& x, Lanes& y,
+                            Lanes& z) {
+    cylinder_normal(face, x, y, z);
+}
+HWY_INLINE void lane_normal(const solids::Cone::Kernel& k, Lanes face, Lanes& x, Lanes& y,
+                            Lanes& z) {
+    cone_normal(k.ratio(), face, x, y, z);
+}
+HWY_INLINE void lane_normal(const solids::Torus::Kernel& k, Lanes, Lanes& x, Lanes& y, Lanes& z) {
+    torus_normal(k.major_radius(), x, y, z);
+}
+HWY_INLINE void lane_normal(const solids::Halfspace::Kernel&, Lanes, Lanes& x, Lanes& y, Lanes& z) {
+    halfspace_normal(x, y, z);
+}
+
 /// What an end of a span becomes on the base ray. All sums are of the same few doubles in the same
 /// order for single rays and packets.
 struct Placing {
@@ -132,6 +153,7 @@ void open_instance(Walker<L>& w, std::uint32_t parent, std::uint32_t leaf_index,
             nearest = t < nearest ? t : nearest;
         }
     }
+    w.unopened.make_room(1);
     put_off(w, {nearest, 0, index, 0, static_cast<std::uint8_t>(lanes)});
 }
 

@@ -30,11 +30,6 @@ HWY_INLINE EndInLanes end_at(Lanes shift, Lanes slack, Lanes s, Lanes error, Lan
     return out;
 }
 
-HWY_INLINE Mask mask_of(std::uint32_t lanes) {
-    const std::uint8_t bytes[8] = {static_cast<std::uint8_t>(lanes)};
-    return {hn::LoadMaskBits(D(), bytes)};
-}
-
 /// Spans of a leaf for the rays from `first` on; returns how many at most. `trouble`: the ray runs in the boundary.
 HWY_INLINE int spans_of(Walker<8>& w, std::uint32_t index, int first, SpanInLanes* spans,
                         Mask& trouble, Lanes& trouble_lo) {
@@ -266,11 +261,11 @@ HWY_INLINE std::uint32_t meet_product(Walker<8>& w, std::uint32_t index, int siz
 HWY_INLINE void walk_nearest(Walker<8>& w) {
     Nearest& n = w.nearest;
     Context<8>& c = w.contexts[0];
-    w.unopened.clear();
+    Beam beam = beam_of(c, w.active);
+    w.unopened.count = 0;
     put_off(w, {-kInfinity, 0, 0, 0, static_cast<std::uint8_t>(w.active)});
-    while (!w.unopened.empty()) {
-        const Unopened box = w.unopened.back();
-        w.unopened.pop_back();
+    while (w.unopened.count > 0) {
+        const Unopened box = w.unopened.list()[--w.unopened.count];
         std::uint32_t open = 0;  // rays that may still find something nearer
         for (int i = 0; i < 8; i += kLanes) open |= bits(load(n.hi + i) >= Lanes(box.t)) << i;
         open &= w.active & ~n.deferred;
@@ -278,7 +273,7 @@ HWY_INLINE void walk_nearest(Walker<8>& w) {
         const std::uint32_t lanes = box.lanes & open;
         if (lanes == 0) continue;
         if (box.count == 0) {
-            open_node(w, box, lanes);
+            open_node(w, box, lanes, beam);
             continue;
         }
         for (int first = 0; first < 8; first += kLanes) {
@@ -304,10 +299,16 @@ HWY_INLINE void walk_nearest(Walker<8>& w) {
             store(nearest, n, first);
         }
         w.leaves += box.count * static_cast<std::uint64_t>(__builtin_popcount(lanes));
-        for (int i = 0; i < 8; ++i) {
-            const double hi = n.hi[i] < n.limit[i] ? n.hi[i] : n.limit[i];
-            c.to[i] = static_cast<float>(hi + 0x1p-20 * (hi < 0.0 ? -hi : hi));
+        float furthest = -std::numeric_limits<float>::infinity();
+        for (int i = 0; i < 8; i += kLanes) {
+            const Lanes hi = lane_min(load(n.hi + i), load(n.limit + i));
+            store_floats(hi + Lanes(0x1p-20) * lane_abs(hi), c.to + i);
         }
+        for (std::uint32_t rest = open & ~n.deferred; rest != 0; rest &= rest - 1) {
+            const float to = c.to[__builtin_ctz(rest)];
+            furthest = to > furthest ? to : furthest;
+        }
+        beam.to = furthest;
     }
 }
 
@@ -321,69 +322,56 @@ HWY_INLINE void settle_nearest(Walker<8>& w) {
             found ? n.second_lo[i] > n.hi[i] && n.trouble_lo[i] > n.hi[i] && n.start_hi[i] < n.lo[i]
                   : n.trouble_lo[i] == kInfinity;
         if (!certain) n.deferred |= 1U << i;
-        n.found[i] = found && certain && n.t[i] < n.limit[i];
+        n.found |= (found && certain && n.t[i] < n.limit[i] ? 1U : 0U) << i;
     }
 }
 
-/// Fills in what is told of the surfaces that were found.
-HWY_INLINE void finish_nearest(Walker<8>& w) {
+/// Fills in the numbers of the surfaces that were found.
+HWY_INLINE void finish_nearest(Walker<8>& w, HitPacket& hits) {
     Nearest& n = w.nearest;
     Context<8>& c = w.contexts[0];
     const CompiledSolid& base = *c.solid;
-    std::uint32_t rest = 0;
-    for (int i = 0; i < 8; ++i) rest |= (n.found[i] && (n.deferred >> i & 1U) == 0 ? 1U : 0U) << i;
+    std::uint32_t rest = n.found & ~n.deferred;
     while (rest != 0) {
         const double number = n.leaf[__builtin_ctz(rest)];
         std::uint32_t same = 0;
-        for (int i = 0; i < 8; ++i) same |= (n.leaf[i] == number ? 1U : 0U) << i;
+        for (int i = 0; i < 8; i += kLanes) same |= bits(load(n.leaf + i) == Lanes(number)) << i;
         same &= rest;
         rest &= ~same;
         const Leaf& leaf = base.leaves[static_cast<std::uint32_t>(number)];
         const Frame& frame = w.data->frames[leaf.frame];
-        const double sign = w.data->looks[leaf.look].cuts ? -1.0 : 1.0;
+        const Lanes sign(w.data->looks[leaf.look].cuts ? -1.0 : 1.0);
         for (int first = 0; first < 8; first += kLanes) {
             const std::uint32_t here = (same >> first) & ((1U << kLanes) - 1U);
             if (here == 0) continue;
+            const Mask mask = mask_of(here);
             const Triple<Lanes> o{load(c.o[0] + first), load(c.o[1] + first), load(c.o[2] + first)};
             const Triple<Lanes> d{load(c.d[0] + first), load(c.d[1] + first), load(c.d[2] + first)};
             const Lanes t = load(n.t + first);
             const Local<Lanes> local =
                 localise<Lanes>(frame, leaf, o.x, o.y, o.z, d.x, d.y, d.z, load(c.error + first));
-            const Triple<Lanes> p = place_in_leaf(local, t);
-            alignas(64) double x[8], y[8], z[8];
-            store(p.x, x);
-            store(p.y, y);
-            store(p.z, z);
-            visit_kernel(w, frame, [&](const auto& kernel) {
-                for (std::uint32_t r = here; r != 0; r &= r - 1) {
-                    const int i = __builtin_ctz(r);
-                    const Vec3 g = kernel.normal({x[i], y[i], z[i]},
-                                                 static_cast<std::uint16_t>(n.face[first + i]));
-                    x[i] = g.x;
-                    y[i] = g.y;
-                    z[i] = g.z;
-                }
+            Triple<Lanes> normal = place_in_leaf(local, t);
+            visit_kernel(w, frame, [&]<class K>(const K& kernel) {
+                if constexpr (kSpansInLanes < K >> 0)
+                    lane_normal(kernel, load(n.face + first), normal.x, normal.y, normal.z);
             });
-            Triple<Lanes> normal = normal_outside(frame, Triple<Lanes>{load(x), load(y), load(z)});
-            const Lanes s(sign);
-            normal = {s * normal.x, s * normal.y, s * normal.z};
+            normal = normal_outside(frame, normal);
+            normal = {sign * normal.x, sign * normal.y, sign * normal.z};
             const Surface<Lanes> surface =
                 surface_at(base, o, d, normal, t, load(n.error + first), load(n.shift + first),
                            load(n.t_per_s + first), Lanes(0.0));
-            alignas(64) double values[9][8];
-            store(normal.x, values[0]);
-            store(normal.y, values[1]);
-            store(normal.z, values[2]);
-            store(surface.t, values[3]);
-            store(surface.error, values[4]);
-            store(surface.x, values[5]);
-            store(surface.y, values[6]);
-            store(surface.z, values[7]);
-            store(surface.point_error, values[8]);
-            for (std::uint32_t r = here; r != 0; r &= r - 1) {
-                const int i = __builtin_ctz(r);
-                for (int v = 0; v < 9; ++v) n.surface[v][first + i] = values[v][i];
-            }
+            const auto put = [&](Lanes value, double* to) {
+                store(lane_select(mask, value, load(to + first)), to + first);
+            };
+            put(normal.x, hits.normal[0]);
+            put(normal.y, hits.normal[1]);
+            put(normal.z, hits.normal[2]);
+            put(surface.t, hits.t);
+            put(surface.error, hits.error);
+            put(surface.x, hits.point[0]);
+            put(surface.y, hits.point[1]);
+            put(surface.z, hits.point[2]);
+            put(surface.point_error, hits.point_error);
         }
     }
 }

@@ -23,32 +23,38 @@ HWY_INLINE SumInLanes two_product(Lanes a, Lanes b) {
     return {p, ((a1 * b1 - p) + a1 * b2 + a2 * b1) + a2 * b2};
 }
 
+/// binary_inverse() of each lane.
+HWY_INLINE Lanes binary_inverses(Lanes size) {
+    const hn::RebindToUnsigned<D> integer;
+    const auto exponent = hn::And(hn::BitCast(integer, size.v), hn::Set(integer, 0x7ffULL << 52));
+    const Lanes quick(hn::BitCast(D(), hn::Sub(hn::Set(integer, 2046ULL << 52), exponent)));
+    const Mask usual = lane_and(size >= Lanes(0x1p-1022), size < Lanes(0x1p+1023));
+    if (!lane_any(lane_not(usual))) return quick;
+    alignas(64) double inverse[8];
+    store(size, inverse);
+    for (int i = 0; i < kLanes; ++i) inverse[i] = binary_inverse(inverse[i]);
+    return load(inverse);
+}
+
 /// Rays from further away than Dekker's product can bear are left to base_ray.
-HWY_INLINE void prepare_packet(Walker<8>& w, const RayQuery* queries, int count) {
+HWY_INLINE void prepare_packet(Walker<8>& w, const RayPacket& rays) {
     Context<8>& c = w.contexts[0];
     const CompiledSolid& base = *c.solid;
     Nearest& n = w.nearest;
-    alignas(64) double o[3][8], d[3][8], unit_scale[8], start_error[8], t_max[8];
-    for (int i = 0; i < 8; ++i) {
-        const RayQuery& q = queries[i < count ? i : count - 1];
-        const Vec3 direction = q.ray.direction;
-        for (int a = 0; a < 3; ++a) o[a][i] = q.ray.origin[a];
-        for (int a = 0; a < 3; ++a) d[a][i] = direction[a];
-        unit_scale[i] = binary_inverse(max_norm(direction));
-        start_error[i] = q.start_error;
-        t_max[i] = q.t_max;
-    }
     std::uint32_t very_far = 0;
     const Lanes scale(base.scale);
     for (int first = 0; first < 8; first += kLanes) {
-        const Lanes unit = load(unit_scale + first);
+        const Lanes given[3] = {load(rays.d[0] + first), load(rays.d[1] + first),
+                                load(rays.d[2] + first)};
+        const Lanes unit = binary_inverses(
+            lane_max(lane_abs(given[0]), lane_max(lane_abs(given[1]), lane_abs(given[2]))));
         Lanes far(0.0);
         Lanes place[3], low[3], along[3];
         for (int a = 0; a < 3; ++a) {
-            const SumInLanes sum = two_sum(load(o[a] + first), Lanes(-base.centre[a]));
+            const SumInLanes sum = two_sum(load(rays.o[a] + first), Lanes(-base.centre[a]));
             place[a] = sum.sum * scale;
             low[a] = sum.rest * scale;
-            along[a] = load(d[a] + first) * unit;
+            along[a] = given[a] * unit;
             far = lane_max(far, lane_abs(place[a]));
         }
         Lanes error = Lanes(4.0 * kUnitRoundoff) * lane_min(far, Lanes(kFarOrigin));
@@ -70,56 +76,54 @@ HWY_INLINE void prepare_packet(Walker<8>& w, const RayQuery* queries, int count)
             const Lanes more = Lanes(8.0 * kUnitRoundoff) * (size + Lanes(kUnitRoundoff) * far);
             error = lane_select(moves, error + more, error);
         }
+        const Lanes t_per_s = unit / scale;
+        const Lanes from = Lanes(0.0) - shift;
+        const Lanes to = load(rays.t_max + first) / t_per_s - shift;
         for (int a = 0; a < 3; ++a) {
+            constexpr double kTilt = 1e-20;
             store(place[a], c.o[a] + first);
             store(along[a], c.d[a] + first);
+            store_floats(place[a], c.fo[a] + first);
+            const Lanes tilted =
+                lane_copysign(lane_max(lane_abs(along[a]), Lanes(kTilt)), along[a]);
+            store_floats(Lanes(1.0) / tilted, c.inverse[a] + first);
         }
-        const Lanes t_per_s = unit / scale;
         store(t_per_s, n.t_per_s + first);
         store(shift, n.shift + first);
-        store(Lanes(0.0) - shift, n.start + first);
-        store(load(t_max + first) / t_per_s - shift, n.limit + first);
+        store(from, n.start + first);
+        store(to, n.limit + first);
+        store_floats(from - Lanes(0x1p-20) * lane_abs(from), c.from + first);
+        store_floats(to + Lanes(0x1p-20) * lane_abs(to), c.to + first);
         store(error, c.error + first);
-        store(load(start_error + first) * scale, c.start_error + first);
+        store(load(rays.start_error + first) * scale, c.start_error + first);
         store(Lanes(0.0), c.t0 + first);
         very_far |= bits(lane_not(far <= Lanes(0x1p+400))) << first;
     }
     for (; very_far != 0; very_far &= very_far - 1) {
         const int i = __builtin_ctz(very_far);
-        const RayQuery& q = queries[i < count ? i : count - 1];
+        const RayQuery q = rays.query(i);
         const BaseRay ray = base_ray(base, q);
-        for (int a = 0; a < 3; ++a) c.o[a][i] = ray.o[a];
+        for (int a = 0; a < 3; ++a) {
+            c.o[a][i] = ray.o[a];
+            c.fo[a][i] = static_cast<float>(ray.o[a]);
+        }
         c.error[i] = ray.error;
         n.shift[i] = ray.shift;
         n.start[i] = ray.to_s(0.0);
         n.limit[i] = ray.to_s(q.t_max);
-    }
-    for (int i = 0; i < 8; ++i) {
-        const double from = n.start[i];
-        const double to = n.limit[i];
-        c.from[i] = static_cast<float>(from - 0x1p-20 * (from < 0.0 ? -from : from));
-        c.to[i] = static_cast<float>(to + 0x1p-20 * (to < 0.0 ? -to : to));
-    }
-    for (int a = 0; a < 3; ++a) {
-        for (int i = 0; i < 8; ++i) {
-            constexpr float kTilt = 1e-20F;
-            const auto x = static_cast<float>(c.d[a][i]);
-            const float size = x < 0.0F ? -x : x;
-            const float tilted = size < kTilt ? kTilt : size;
-            c.fo[a][i] = static_cast<float>(c.o[a][i]);
-            c.inverse[a][i] = (x < 0.0F ? -1.0F : 1.0F) / tilted;
-        }
+        c.from[i] = static_cast<float>(n.start[i] - 0x1p-20 * std::fabs(n.start[i]));
+        c.to[i] = static_cast<float>(n.limit[i] + 0x1p-20 * std::fabs(n.limit[i]));
     }
 }
 
 /// Nothing found yet.
 HWY_INLINE void reset_nearest(Nearest& n) {
-    for (int i = 0; i < 8; ++i) {
-        n.lo[i] = n.t[i] = n.hi[i] = n.second_lo[i] = n.trouble_lo[i] = kInfinity;
-        n.start_hi[i] = -kInfinity;
-        n.error[i] = n.face[i] = 0.0;
-        n.leaf[i] = n.inside[i] = -1.0;
-        n.found[i] = false;
+    const Lanes none(kInfinity);
+    for (int i = 0; i < 8; i += kLanes) {
+        for (double* p : {n.lo, n.t, n.hi, n.second_lo, n.trouble_lo}) store(none, p + i);
+        store(Lanes(-kInfinity), n.start_hi + i);
+        for (double* p : {n.error, n.face}) store(Lanes(0.0), p + i);
+        for (double* p : {n.leaf, n.inside}) store(Lanes(-1.0), p + i);
     }
-    n.deferred = 0;
+    n.found = n.deferred = 0;
 }

@@ -4,7 +4,7 @@
 #include <random>
 
 #include "raymo/csg/model.hpp"
-#include "raymo/trace/tracer.hpp"
+#include "raymo/trace/packet.hpp"
 
 namespace raymo::trace {
 namespace {
@@ -121,7 +121,7 @@ TEST_CASE("trace: a ray that starts on a surface does not meet it again") {
         if (!tracer.first_hit(query, hit)) continue;
         RayQuery next;
         next.ray = {hit.point, Vec3{uniform(random), uniform(random), uniform(random)}};
-        next.start = hit.surface;
+        next.on_surface = true;
         next.start_error = hit.point_error;
         if (hit.part != 0 || dot(next.ray.direction, hit.normal) <= 0.0) continue;
         Hit second;
@@ -172,22 +172,23 @@ TEST_CASE("trace: packets and single rays give the same bits") {
         for (RayQuery& q : queries) {
             q.ray = {eye, aim - eye + Vec3{0, uniform(random), uniform(random)}};
         }
-        Hit together[8];
-        bool found[8];
-        bool blocked[8];
-        tracer.first_hits(queries, together, found);
-        tracer.occluded(queries, blocked);
+        RayPacket rays;
+        for (std::size_t i = 0; i < 8; ++i) rays.set(static_cast<int>(i), queries[i]);
+        HitPacket hits_together;
+        const LaneBits all_found = tracer.first_hits(rays, kAllLanes, hits_together);
+        CHECK(tracer.occluded(rays, kAllLanes) == all_found);
         for (std::size_t i = 0; i < 8; ++i) {
             Hit alone;
-            REQUIRE(tracer.first_hit(queries[i], alone) == found[i]);
-            CHECK(tracer.occluded(queries[i]) == blocked[i]);
-            CHECK(blocked[i] == found[i]);
-            if (!found[i]) continue;
+            const bool found = (all_found >> i & 1U) != 0;
+            REQUIRE(tracer.first_hit(queries[i], alone) == found);
+            CHECK(tracer.occluded(queries[i]) == found);
+            if (!found) continue;
             ++hits;
-            CHECK(alone.t == together[i].t);
-            CHECK(alone.error == together[i].error);
-            CHECK(alone.normal == together[i].normal);
-            CHECK(alone.surface == together[i].surface);
+            const Hit together = hits_together.hit(static_cast<int>(i));
+            CHECK(alone.t == together.t);
+            CHECK(alone.error == together.error);
+            CHECK(alone.normal == together.normal);
+            CHECK(alone.surface == together.surface);
             CHECK(dot(alone.normal, queries[i].ray.direction) <= 0.0);
         }
     }
@@ -219,23 +220,26 @@ TEST_CASE("trace: from within glass, packets and single rays give the same bits"
             Hit hit;
             if (k % 2 == 0 || !tracer.first_hit(eye, hit)) continue;
             q.ray = {hit.point, {uniform(random), uniform(random), uniform(random)}};
-            q.start = hit.surface;
+            q.on_surface = true;
             q.start_error = hit.point_error;
         }
-        Hit together[8];
-        bool found[8];
-        tracer.first_hits(queries, together, found);
+        RayPacket rays;
+        for (std::size_t i = 0; i < 8; ++i) rays.set(static_cast<int>(i), queries[i]);
+        HitPacket hits_together;
+        const LaneBits all_found = tracer.first_hits(rays, kAllLanes, hits_together);
         for (std::size_t i = 0; i < 8; ++i) {
             Hit alone;
-            REQUIRE(tracer.first_hit(queries[i], alone) == found[i]);
-            if (!found[i]) continue;
+            const bool found = (all_found >> i & 1U) != 0;
+            REQUIRE(tracer.first_hit(queries[i], alone) == found);
+            if (!found) continue;
+            const Hit together = hits_together.hit(static_cast<int>(i));
             exits += alone.entering ? 0 : 1;
-            CHECK(alone.t == together[i].t);
-            CHECK(alone.entering == together[i].entering);
-            CHECK(alone.part == together[i].part);
-            CHECK(alone.medium_before == together[i].medium_before);
-            CHECK(alone.medium_after == together[i].medium_after);
-            CHECK(alone.normal == together[i].normal);
+            CHECK(alone.t == together.t);
+            CHECK(alone.entering == together.entering);
+            CHECK(alone.part == together.part);
+            CHECK(alone.medium_before == together.medium_before);
+            CHECK(alone.medium_after == together.medium_after);
+            CHECK(alone.normal == together.normal);
         }
     }
     CHECK(exits > 1000);

@@ -9,6 +9,7 @@
 #include "raymo/math/tolerance.hpp"
 #include "raymo/trace/base_ray.hpp"
 #include "raymo/trace/data.hpp"
+#include "raymo/trace/packet.hpp"
 #include "raymo/trace/walk.hpp"
 
 namespace raymo::trace {
@@ -29,7 +30,7 @@ struct Tracer::State {
     const CompiledScene::Data* data;
     Walker<1> one;
     Walker<8> eight;
-    BaseRay rays[kPacket];
+    BaseRay rays[RayPacket::kSize];
     bool simple = false;  ///< the latest packet was answered by walk_simple
     RayCounts counts;
 
@@ -62,27 +63,29 @@ struct Tracer::State {
         w.counters.reset();
         w.boxes = w.leaves = 0;
     }
-    /// Traces a packet in `eight`. Returns the rays that must be traced alone, one bit each.
-    std::uint32_t trace_packet(std::span<const RayQuery> queries, Mode mode) {
-        RAYMO_ASSERT(!queries.empty() && queries.size() <= kPacket);
+    /// Traces a packet in `eight`. Returns the rays that must be traced alone, one bit each. Where the solid is simple, what
+    /// it met is in eight.nearest, and the numbers of the surfaces in `hits` (unless that is null).
+    LaneBits trace_packet(const RayPacket& packet, LaneBits lanes, Mode mode, HitPacket* hits) {
+        RAYMO_ASSERT(lanes != 0 && lanes <= kAllLanes);
         const CompiledSolid& base = data->solids.front();
         // Shadows of transparent parts need the materials on the way, which only events give.
         simple = base.simple && (mode == Mode::first || !data->has_transparency);
         start(eight, mode);
-        eight.active = (1U << queries.size()) - 1U;
-        std::uint32_t deferred = 0;
+        eight.active = lanes;
+        LaneBits deferred = 0;
         if (simple) {
-            walk_simple(eight, queries.data(), static_cast<int>(queries.size()),
-                        mode == Mode::first);
+            walk_simple(eight, packet, hits);
             deferred = eight.nearest.deferred;
         } else {
-            for (std::size_t i = 0; i < kPacket; ++i) {
-                const RayQuery& query = queries[std::min(i, queries.size() - 1)];
+            const int some = lowest_lane(lanes);
+            for (int i = 0; i < RayPacket::kSize; ++i) {
+                const RayQuery query = packet.query((lanes >> i & 1U) != 0 ? i : some);
                 rays[i] = base_ray(base, query);
-                place(eight, static_cast<int>(i), rays[i], query);
+                place(eight, i, rays[i], query);
             }
             walk(eight);
-            for (std::size_t i = 0; i < queries.size(); ++i) {
+            for (LaneBits rest = lanes; rest != 0; rest &= rest - 1) {
+                const int i = lowest_lane(rest);
                 deferred |= (eight.lanes[i].stepped_aside ? 1U : 0U) << i;
             }
         }
@@ -90,8 +93,8 @@ struct Tracer::State {
         counts.leaves += eight.leaves;
         return deferred;
     }
-    /// The hit of ray `i` of a packet that walk_simple has answered.
-    void fill(Hit& hit, std::size_t i) const;
+    /// All of a hit but the numbers of its surface, for ray `i` of a packet that walk_simple has answered.
+    void fill(HitPacket& hits, int i) const;
     /// Traces one ray in `one`; the ray as traced (perhaps moved aside) is returned.
     BaseRay trace_one(const RayQuery& query, Mode mode) {
         const BaseRay straight = base_ray(data->solids.front(), query);
@@ -107,7 +110,7 @@ struct Tracer::State {
             counts.leaves += one.leaves;
             if (!one.lanes[0].stepped_aside) return ray;
             step = std::max(step, one.lanes[0].step);
-            ray = moved_aside(straight, step, attempt, query.start.leaf != SurfaceId::kNone);
+            ray = moved_aside(straight, step, attempt, query.on_surface);
         }
     }
     template <int L>
@@ -164,20 +167,14 @@ Hit Tracer::State::hit_of(const Walker<L>& w, int i, const BaseRay& ray,
     return hit;
 }
 
-void Tracer::State::fill(Hit& hit, std::size_t i) const {
+void Tracer::State::fill(HitPacket& hits, int i) const {
     const Nearest& n = eight.nearest;
     const CompiledSolid& base = data->solids.front();
     const auto index = static_cast<std::uint32_t>(n.leaf[i]);
     const Leaf& leaf = base.leaves[index];
     const Look& look = data->looks[leaf.look];
-    hit.normal = {n.surface[0][i], n.surface[1][i], n.surface[2][i]};
-    hit.t = n.surface[3][i];
-    hit.error = n.surface[4][i];
-    hit.point = {n.surface[5][i], n.surface[6][i], n.surface[7][i]};
-    hit.point_error = n.surface[8][i];
-    hit.entering = n.leaf[i] == std::floor(n.leaf[i]);
-    hit.part = leaf.parent < base.parts ? leaf.parent : base.groups[leaf.parent].parent;
-    hit.material = look.material;
+    const bool entering = n.leaf[i] == static_cast<double>(index);
+    csg::MaterialId material = look.material;
     if (look.borrows) {
         // The ray is in all positive leaves of the product here: the leftmost that has a material lends it.
         std::uint32_t first = index;
@@ -188,16 +185,20 @@ void Tracer::State::fill(Hit& hit, std::size_t i) const {
             if (other.cuts || other.material == csg::kNoMaterial || base.leaves[k].order >= order)
                 continue;
             order = base.leaves[k].order;
-            hit.material = other.material;
+            material = other.material;
         }
     }
-    hit.medium_before = Hit::kAir;
-    if (n.inside[i] >= 0.0) {
-        hit.medium_before =
-            data->looks[base.leaves[static_cast<std::uint32_t>(n.inside[i])].look].material;
-    }
-    hit.medium_after = hit.entering ? hit.material : Hit::kAir;
-    hit.surface = {base.first_leaf + index, 0, static_cast<std::uint16_t>(n.face[i])};
+    hits.entering[i] = entering;
+    hits.part[i] = leaf.parent < base.parts ? leaf.parent : base.groups[leaf.parent].parent;
+    hits.material[i] = material;
+    hits.medium_before[i] =
+        n.inside[i] < 0.0
+            ? Hit::kAir
+            : data->looks[base.leaves[static_cast<std::uint32_t>(n.inside[i])].look].material;
+    hits.medium_after[i] = entering ? material : Hit::kAir;
+    hits.leaf[i] = base.first_leaf + index;
+    hits.instance[i] = 0;
+    hits.face[i] = static_cast<std::uint16_t>(n.face[i]);
 }
 
 Tracer::Tracer(const CompiledScene& scene) : state_(std::make_unique<State>()) {
@@ -224,40 +225,48 @@ bool Tracer::occluded(const RayQuery& query) {
     return s.one.lanes[0].blocked;
 }
 
-void Tracer::first_hits(std::span<const RayQuery> queries, Hit* hits, bool* found) {
+LaneBits Tracer::first_hits(const RayPacket& rays, LaneBits lanes, HitPacket& hits) {
     State& s = *state_;
-    s.counts.primary += queries.size();
-    const std::uint32_t deferred = s.trace_packet(queries, Mode::first);
-    for (std::size_t i = 0; i < queries.size(); ++i) {
-        if ((deferred >> i & 1U) != 0) {
-            const BaseRay ray = s.trace_one(queries[i], Mode::first);
-            const Lane& lane = s.one.lanes[0];
-            found[i] = !lane.crossings.empty();
-            if (found[i]) hits[i] = s.hit_of(s.one, 0, ray, lane.crossings.front());
-        } else if (s.simple) {
-            found[i] = s.eight.nearest.found[i];
-            if (found[i]) s.fill(hits[i], i);
-        } else {
+    s.counts.primary += static_cast<std::uint64_t>(lane_count(lanes));
+    const LaneBits deferred = s.trace_packet(rays, lanes, Mode::first, &hits);
+    LaneBits found = s.simple ? s.eight.nearest.found & ~deferred : 0;
+    if (s.simple) {
+        for (LaneBits rest = found; rest != 0; rest &= rest - 1) s.fill(hits, lowest_lane(rest));
+    } else {
+        for (LaneBits rest = lanes & ~deferred; rest != 0; rest &= rest - 1) {
+            const int i = lowest_lane(rest);
             const Lane& lane = s.eight.lanes[i];
-            found[i] = !lane.crossings.empty();
-            if (found[i])
-                hits[i] = s.hit_of(s.eight, static_cast<int>(i), s.rays[i], lane.crossings.front());
+            if (lane.crossings.empty()) continue;
+            found |= 1U << i;
+            hits.set(i, s.hit_of(s.eight, i, s.rays[i], lane.crossings.front()));
         }
     }
+    for (LaneBits rest = deferred; rest != 0; rest &= rest - 1) {
+        const int i = lowest_lane(rest);
+        const BaseRay ray = s.trace_one(rays.query(i), Mode::first);
+        const Lane& lane = s.one.lanes[0];
+        if (lane.crossings.empty()) continue;
+        found |= 1U << i;
+        hits.set(i, s.hit_of(s.one, 0, ray, lane.crossings.front()));
+    }
+    return found;
 }
 
-void Tracer::occluded(std::span<const RayQuery> queries, bool* blocked) {
+LaneBits Tracer::occluded(const RayPacket& rays, LaneBits lanes) {
     State& s = *state_;
-    s.counts.shadow += queries.size();
-    const std::uint32_t deferred = s.trace_packet(queries, Mode::any);
-    for (std::size_t i = 0; i < queries.size(); ++i) {
+    s.counts.shadow += static_cast<std::uint64_t>(lane_count(lanes));
+    const LaneBits deferred = s.trace_packet(rays, lanes, Mode::any, nullptr);
+    LaneBits blocked = s.simple ? s.eight.nearest.found & ~deferred : 0;
+    for (LaneBits rest = lanes; rest != 0; rest &= rest - 1) {
+        const int i = lowest_lane(rest);
         if ((deferred >> i & 1U) != 0) {
-            s.trace_one(queries[i], Mode::any);
-            blocked[i] = s.one.lanes[0].blocked;
-        } else {
-            blocked[i] = s.simple ? s.eight.nearest.found[i] : s.eight.lanes[i].blocked;
+            s.trace_one(rays.query(i), Mode::any);
+            blocked |= (s.one.lanes[0].blocked ? 1U : 0U) << i;
+        } else if (!s.simple) {
+            blocked |= (s.eight.lanes[i].blocked ? 1U : 0U) << i;
         }
     }
+    return blocked;
 }
 
 void Tracer::spans(const Ray& ray, std::vector<std::vector<PartSpan>>& by_part) {

@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
-#include <span>
 #include <vector>
 
 #include "raymo/math/ray.hpp"
@@ -12,8 +11,7 @@
 
 namespace raymo::trace {
 
-/// A place on a surface, kept by a hit and handed back with the rays that start there. No offset is needed: crossings
-/// that can not be told from the start are passed.
+/// A face of a leaf.
 struct SurfaceId {
     static constexpr std::uint32_t kNone = 0xffffffffU;
     std::uint32_t leaf = kNone;  ///< stored leaf
@@ -23,11 +21,12 @@ struct SurfaceId {
     friend bool operator==(const SurfaceId&, const SurfaceId&) = default;
 };
 
-/// A question to the tracer.
+/// A question to the tracer. A ray that starts on a surface needs no offset: crossings that can not be told from the start
+/// are passed.
 struct RayQuery {
     Ray ray;
     double t_max = std::numeric_limits<double>::infinity();
-    SurfaceId start = {};      ///< the surface that the ray starts on, or none
+    bool on_surface = false;   ///< the ray starts on a surface, which it has met before
     double start_error = 0.0;  ///< bound of the distance of ray.origin from that surface
 };
 
@@ -60,6 +59,9 @@ struct RayCounts {
     std::uint64_t boxes = 0, leaves = 0;
 };
 
+struct RayPacket;
+struct HitPacket;
+
 /// Answers rays. Holds scratch memory, so one per thread; the scene must outlive it.
 class Tracer {
 public:
@@ -73,11 +75,11 @@ public:
     /// inside one.
     [[nodiscard]] bool occluded(const RayQuery& query);
 
-    static constexpr std::size_t kPacket = 8;
-    /// The same answers, bit for bit, for up to kPacket rays together; faster when the rays are
-    /// close. found[i] tells whether hits[i] is set.
-    void first_hits(std::span<const RayQuery> queries, Hit* hits, bool* found);
-    void occluded(std::span<const RayQuery> queries, bool* blocked);
+    /// The same answers, bit for bit, for the rays of a packet that `lanes` (not 0) names, one bit each; faster when they
+    /// are close. The other lanes may hold any finite rays. first_hits: returns the rays whose lane of `hits` is set.
+    std::uint32_t first_hits(const RayPacket& rays, std::uint32_t lanes, HitPacket& hits);
+    /// Returns the rays that are occluded.
+    std::uint32_t occluded(const RayPacket& rays, std::uint32_t lanes);
 
     /// All spans of every part along the whole line, from -infinity to +infinity, by part and then
     /// by t.

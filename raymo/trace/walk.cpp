@@ -25,11 +25,12 @@
 #include "raymo/math/tolerance.hpp"
 #include "raymo/trace/base_ray.hpp"
 #include "raymo/trace/lane_kinds.hpp"
+#include "raymo/trace/packet.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace raymo::trace {
 namespace HWY_NAMESPACE {
-#include "raymo/trace/lanes-inl.hpp"
+#include "raymo/math/lanes-inl.hpp"
 using solids::LaneSpans;
 using solids::LocalRay;
 #include "raymo/solids/kernels.inl"
@@ -45,10 +46,10 @@ using solids::LocalRay;
 /// Opens what lies nearest until every ray has its answer.
 template <int L>
 HWY_INLINE void walk_all(Walker<L>& w) {
-    w.unopened.clear();
+    w.unopened.count = 0;
     put_off(w, {-kInfinity, 0, 0, 0, static_cast<std::uint8_t>(w.active)});
-    while (!w.unopened.empty()) {
-        const Unopened box = w.unopened.back();
+    while (w.unopened.count > 0) {
+        const Unopened box = w.unopened.list()[w.unopened.count - 1];
         for (std::uint32_t rest = w.active; rest != 0; rest &= rest - 1) {
             const int i = __builtin_ctz(rest);
             Lane& lane = w.lanes[i];
@@ -57,7 +58,7 @@ HWY_INLINE void walk_all(Walker<L>& w) {
             if (lane.done) w.active &= ~(1U << i);
         }
         if (w.active == 0) return;
-        w.unopened.pop_back();
+        --w.unopened.count;
         const std::uint32_t lanes = box.lanes & w.active;
         if (lanes == 0) continue;
         if (box.count == 0) {
@@ -76,12 +77,12 @@ HWY_INLINE void walk_all(Walker<L>& w) {
 
 void walk1(Walker<1>& w) { walk_all(w); }
 void walk8(Walker<8>& w) { walk_all(w); }
-void walk_simple8(Walker<8>& w, const RayQuery* queries, int count, bool surfaces) {
-    prepare_packet(w, queries, count);
+void walk_simple8(Walker<8>& w, const RayPacket& rays, HitPacket* hits) {
+    prepare_packet(w, rays);
     reset_nearest(w.nearest);
     walk_nearest(w);
     settle_nearest(w);
-    if (surfaces) finish_nearest(w);
+    if (hits != nullptr) finish_nearest(w, *hits);
 }
 
 }  // namespace HWY_NAMESPACE
@@ -97,8 +98,8 @@ HWY_EXPORT(walk_simple8);
 
 void walk(Walker<1>& walker) { HWY_DYNAMIC_DISPATCH(walk1)(walker); }
 void walk(Walker<8>& walker) { HWY_DYNAMIC_DISPATCH(walk8)(walker); }
-void walk_simple(Walker<8>& walker, const RayQuery* queries, int count, bool surfaces) {
-    HWY_DYNAMIC_DISPATCH(walk_simple8)(walker, queries, count, surfaces);
+void walk_simple(Walker<8>& walker, const RayPacket& rays, HitPacket* hits) {
+    HWY_DYNAMIC_DISPATCH(walk_simple8)(walker, rays, hits);
 }
 
 }  // namespace raymo::trace

@@ -10,8 +10,8 @@ namespace raymo::trace {
 /// answers.
 void walk(Walker<1>& walker);
 void walk(Walker<8>& walker);
-/// The nearest surfaces of a simple solid, seen from outside, for `count` rays: answers, or defers rays, in
-/// walker.nearest. `surfaces`: also fill in Nearest::surface.
-void walk_simple(Walker<8>& walker, const RayQuery* queries, int count, bool surfaces);
+/// The nearest surfaces of a simple solid for the active rays: answers, or defers rays, in walker.nearest. `hits`: where to
+/// put the numbers of the surfaces that are met; may be null.
+void walk_simple(Walker<8>& walker, const RayPacket& rays, HitPacket* hits);
 
 }  // namespace raymo::trace

@@ -201,14 +201,24 @@ struct Unopened {
     std::uint8_t lanes;  ///< bit i: ray i meets the box
 };
 
+/// Boxes to be opened, sorted with the nearest last.
+struct UnopenedList {
+    std::vector<Unopened> room = std::vector<Unopened>(64);
+    std::size_t count = 0;
+
+    [[nodiscard]] Unopened* list() { return room.data(); }
+    void make_room(std::size_t more) {
+        if (count + more > room.size()) room.resize(2 * room.size() + more);
+    }
+};
+
 /// The nearest surface of each ray of a packet, as nearest-inl.hpp finds it; what the names mean is told there.
 struct alignas(64) Nearest {
     double lo[8], t[8], hi[8], error[8], face[8], leaf[8];
     double inside[8];  ///< leaf that the ray starts in, or -1
     double second_lo[8], start_hi[8], trouble_lo[8];
     double start[8], limit[8], shift[8], t_per_s[8];
-    double surface[9][8];  ///< normal (3), t, error, point (3), point_error
-    bool found[8];
+    std::uint32_t found;
     std::uint32_t deferred;
 };
 
@@ -221,7 +231,7 @@ struct Walker {
     Lane lanes[L];
     std::vector<Context<L>> contexts;
     Counters<L> counters;
-    std::vector<Unopened> unopened;  ///< sorted, nearest last
+    UnopenedList unopened;
     std::uint64_t boxes = 0, leaves = 0;
     Nearest nearest;  ///< packets only
 

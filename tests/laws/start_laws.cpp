@@ -33,7 +33,7 @@ void bounces(std::uint64_t rays, Random& random, Tally& tally,
                 const bool inside = dot(d, hit.normal) < 0.0;
                 trace::RayQuery next;
                 next.ray = {hit.point, d};
-                next.start = hit.surface;
+                next.on_surface = true;
                 next.start_error = hit.point_error;
                 trace::Hit met;
                 const bool found = traced.tracer().first_hit(next, met);
@@ -41,8 +41,8 @@ void bounces(std::uint64_t rays, Random& random, Tally& tally,
                 const auto fault = [&](const char* what) {
                     char start[100];
                     std::snprintf(start, sizeof start,
-                                  ", from leaf %u face %d, start error %g: ", next.start.leaf,
-                                  static_cast<int>(next.start.face), next.start_error);
+                                  ", from leaf %u face %d, start error %g: ", hit.surface.leaf,
+                                  static_cast<int>(hit.surface.face), next.start_error);
                     tally.exception(std::string(what) + start +
                                     describe(*traced.model(), next.ray));
                 };
@@ -104,7 +104,7 @@ void convex(std::uint64_t rays, Random& random, Tally& tally) {
             if (dot(d, hit.normal) < 0.0) d = -d;
             trace::RayQuery next;
             next.ray = {hit.point, d};
-            next.start = hit.surface;
+            next.on_surface = true;
             next.start_error = hit.point_error;
             trace::Hit again;
             ++tally.samples;

@@ -1,6 +1,7 @@
 // Random Booleans with many coincident faces, judged point by point; and packets against single rays.
 #include <cstring>
 
+#include "raymo/trace/packet.hpp"
 #include "tests/laws/rays.hpp"
 
 namespace raymo::laws {
@@ -35,7 +36,7 @@ bool same_hit(const trace::Hit& a, const trace::Hit& b) {
 }
 
 void packets(std::uint64_t rays, Random& random, Tally& tally) {
-    constexpr std::size_t kMost = trace::Tracer::kPacket;
+    constexpr std::size_t kMost = trace::RayPacket::kSize;
     while (tally.rays < rays) {
         Traced traced(grid_tree(random, 1 + random.below(5)));
         if (!traced.ok()) {
@@ -55,20 +56,32 @@ void packets(std::uint64_t rays, Random& random, Tally& tally) {
                     query.ray.direction += random.in_cube(0.01 * norm(query.ray.direction));
                 if (random.chance(0.3)) query.t_max = random.uniform(0, 10);
             }
-            trace::Hit together[kMost];
-            bool found[kMost] = {}, blocked[kMost] = {};
-            traced.tracer().first_hits(queries, together, found);
-            traced.tracer().occluded(queries, blocked);
+            trace::RayPacket packet_of_rays;
+            for (std::size_t i = 0; i < kMost; ++i)
+                packet_of_rays.set(static_cast<int>(i), queries[std::min(i, count - 1)]);
+            // Some lanes are left out, in the middle too.
+            trace::LaneBits lanes = trace::first_lanes(count);
+            if (random.chance(0.3)) lanes &= static_cast<trace::LaneBits>(random.below(256));
+            if (lanes == 0) continue;
+            trace::HitPacket together;
+            const trace::LaneBits found =
+                traced.tracer().first_hits(packet_of_rays, lanes, together);
+            const trace::LaneBits blocked = traced.tracer().occluded(packet_of_rays, lanes);
+            if (((found | blocked) & ~lanes) != 0)
+                tally.exception("an answer that nobody asked for");
             for (std::size_t i = 0; i < count; ++i) {
+                const auto answered = [i](trace::LaneBits bits) { return (bits >> i & 1U) != 0; };
+                if (!answered(lanes)) continue;
                 trace::Hit alone;
                 const bool hit = traced.tracer().first_hit(queries[i], alone);
                 ++tally.rays;
                 ++tally.samples;
-                if (hit != found[i] || (hit && !same_hit(alone, together[i]))) {
+                if (hit != answered(found) ||
+                    (hit && !same_hit(alone, together.hit(static_cast<int>(i))))) {
                     tally.exception("first_hits differs from first_hit: " +
                                     describe(*traced.model(), queries[i].ray));
                 }
-                if (traced.tracer().occluded(queries[i]) != blocked[i]) {
+                if (traced.tracer().occluded(queries[i]) != answered(blocked)) {
                     tally.exception("occluded: packet differs from single: " +
                                     describe(*traced.model(), queries[i].ray));
                 }

@@ -1,0 +1,104 @@
+// Eight rays side by side, and what they meet: the form in which the walk and the shading compute.
+#pragma once
+
+#include <cstdint>
+
+#include "raymo/trace/tracer.hpp"
+
+namespace raymo::trace {
+
+/// Lanes of a packet, one bit each.
+using LaneBits = std::uint32_t;
+inline constexpr LaneBits kAllLanes = 0xffU;
+
+[[nodiscard]] constexpr LaneBits first_lanes(std::size_t count) { return (1U << count) - 1U; }
+[[nodiscard]] inline int lowest_lane(LaneBits lanes) { return __builtin_ctz(lanes); }
+[[nodiscard]] inline int lane_count(LaneBits lanes) { return __builtin_popcount(lanes); }
+
+/// Questions, as in RayQuery.
+struct alignas(64) RayPacket {
+    static constexpr int kSize = 8;
+    double o[3][kSize];
+    double d[3][kSize];
+    double t_max[kSize];
+    double start_error[kSize];
+    LaneBits on_surface = 0;
+
+    void set(int lane, const RayQuery& query) {
+        for (int a = 0; a < 3; ++a) {
+            o[a][lane] = query.ray.origin[a];
+            d[a][lane] = query.ray.direction[a];
+        }
+        t_max[lane] = query.t_max;
+        start_error[lane] = query.start_error;
+        on_surface = (on_surface & ~(1U << lane)) | (query.on_surface ? 1U : 0U) << lane;
+    }
+    [[nodiscard]] RayQuery query(int lane) const {
+        RayQuery q;
+        q.ray = {{o[0][lane], o[1][lane], o[2][lane]}, {d[0][lane], d[1][lane], d[2][lane]}};
+        q.t_max = t_max[lane];
+        q.start_error = start_error[lane];
+        q.on_surface = (on_surface >> lane & 1U) != 0;
+        return q;
+    }
+    /// Gives the lanes beside `lanes` (at least one) a copy of one of those, so that they cost nothing.
+    void fill_up(LaneBits lanes) {
+        const int from = lowest_lane(lanes);
+        for (LaneBits rest = ~lanes & kAllLanes; rest != 0; rest &= rest - 1) {
+            const int to = lowest_lane(rest);
+            for (int a = 0; a < 3; ++a) {
+                o[a][to] = o[a][from];
+                d[a][to] = d[a][from];
+            }
+            t_max[to] = t_max[from];
+            start_error[to] = start_error[from];
+        }
+    }
+};
+
+/// Answers, as in Hit.
+struct alignas(64) HitPacket {
+    double t[8], error[8];
+    double point[3][8], point_error[8];
+    double normal[3][8];
+    std::uint32_t part[8];
+    csg::MaterialId material[8], medium_before[8], medium_after[8];
+    std::uint32_t leaf[8], instance[8];
+    std::uint16_t face[8];
+    bool entering[8];
+
+    void set(int lane, const Hit& hit) {
+        t[lane] = hit.t;
+        error[lane] = hit.error;
+        for (int a = 0; a < 3; ++a) {
+            point[a][lane] = hit.point[a];
+            normal[a][lane] = hit.normal[a];
+        }
+        point_error[lane] = hit.point_error;
+        part[lane] = hit.part;
+        material[lane] = hit.material;
+        medium_before[lane] = hit.medium_before;
+        medium_after[lane] = hit.medium_after;
+        leaf[lane] = hit.surface.leaf;
+        instance[lane] = hit.surface.instance;
+        face[lane] = hit.surface.face;
+        entering[lane] = hit.entering;
+    }
+    [[nodiscard]] Hit hit(int lane) const {
+        Hit out;
+        out.t = t[lane];
+        out.error = error[lane];
+        out.point = {point[0][lane], point[1][lane], point[2][lane]};
+        out.point_error = point_error[lane];
+        out.normal = {normal[0][lane], normal[1][lane], normal[2][lane]};
+        out.entering = entering[lane];
+        out.part = part[lane];
+        out.material = material[lane];
+        out.medium_before = medium_before[lane];
+        out.medium_after = medium_after[lane];
+        out.surface = {leaf[lane], instance[lane], face[lane]};
+        return out;
+    }
+};
+
+}  // namespace raymo::trace
