@@ -20,8 +20,13 @@ struct Film {
     Film(int w, int h)
         : width(w), height(h), rgb(3 * static_cast<std::size_t>(w) * static_cast<std::size_t>(h)) {}
     void set(int x, int y, Vec3 colour) {
-        float* p = &rgb[3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
-                             static_cast<std::size_t>(x))];
+        set(static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
+                static_cast<std::size_t>(x),
+            colour);
+    }
+    /// By number, row by row.
+    void set(std::size_t pixel, Vec3 colour) {
+        float* p = &rgb[3 * pixel];
         p[0] = static_cast<float>(colour.x);
         p[1] = static_cast<float>(colour.y);
         p[2] = static_cast<float>(colour.z);

@@ -17,30 +17,14 @@ constexpr double kFirstPass = 0.6;
 
 using Signatures = std::vector<Signature, image::Zeroed<Signature>>;
 
-EyeRay middle_ray(const Sitting& s, int x, int y) {
-    return {s.view.ray(x + 0.5, y + 0.5), pixel_seed(s.options.seed, x, y), 0, 1};
-}
-
-EyeRay sample_ray(const Sitting& s, int x, int y, std::uint64_t seed, std::uint32_t k,
-                  std::uint32_t samples) {
-    const Point2 p = sample_point(k, seed);
-    EyeRay eye{{}, seed, k, samples};
-    if (s.camera.aperture > 0.0) {
-        const Point2 lens = sample_point(k, seed + 1);
-        eye.ray = s.view.ray(x + p.u, y + p.v, lens.u, lens.v);
-    } else {
-        eye.ray = s.view.ray(x + p.u, y + p.v);
-    }
-    return eye;
-}
-
 /// Draws pixels of one tile with `samples` rays each: those for which wanted(x, y) holds.
 template <class Wanted>
 void draw_samples(const Sitting& s, const Rect& tile, std::uint32_t samples, RayShader& shader,
                   Wanted&& wanted) {
     std::array<Colour, kTile * kTile> sum{};
-    Packet packet(shader,
-                  [&](std::size_t pixel, const Answer& answer) { sum[pixel] += answer.light; });
+    Sampler sampler(
+        s, shader, samples,
+        [&](std::size_t pixel, const Colour& light, const Signature&) { sum[pixel] += light; });
     const auto slot = [&](int x, int y) {
         return static_cast<std::size_t>((y - tile.y0) * kTile + (x - tile.x0));
     };
@@ -48,13 +32,12 @@ void draw_samples(const Sitting& s, const Rect& tile, std::uint32_t samples, Ray
     for_each_cell(tile, [&](int x, int y) {
         if (stopped || !wanted(x, y)) return;
         stopped = s.crew.cancelled();
-        const std::uint64_t seed = pixel_seed(s.options.seed, x, y);
         for (std::uint32_t k = 0; k < samples && !stopped; ++k) {
-            packet.add(sample_ray(s, x, y, seed, k, samples), slot(x, y));
+            sampler.add_sample(x, y, k, slot(x, y));
             if ((k & 255U) == 255U) stopped = s.crew.cancelled();
         }
     });
-    packet.flush();
+    sampler.flush();
     if (stopped) return;
     for_each_cell(tile, [&](int x, int y) {
         if (wanted(x, y)) s.film.set(x, y, sum[slot(x, y)] * (1.0 / samples));
@@ -110,15 +93,15 @@ bool draw_final(const Sitting& s) {
     Signatures seen(once ? 0 : pixels);
     const auto w = static_cast<std::size_t>(s.film.width);
     const auto draw_middles = [&](const Rect& tile, RayShader& shader) {
-        Packet packet(shader, [&](std::size_t pixel, const Answer& answer) {
-            s.film.set(static_cast<int>(pixel % w), static_cast<int>(pixel / w), answer.light);
-            if (!once) seen[pixel] = answer.signature;
-        });
+        Sampler sampler(s, shader, 1,
+                        [&](std::size_t pixel, const Colour& light, const Signature& signature) {
+                            s.film.set(pixel, light);
+                            if (!once) seen[pixel] = signature;
+                        });
         for_each_cell(tile, [&](int x, int y) {
-            packet.add(middle_ray(s, x, y),
-                       static_cast<std::size_t>(y) * w + static_cast<std::size_t>(x));
+            sampler.add_middle(x, y, static_cast<std::size_t>(y) * w + static_cast<std::size_t>(x));
         });
-        packet.flush();
+        sampler.flush();
     };
     if (!s.crew.run(tiles, 0.0, once ? 1.0 : kFirstPass, draw_middles)) return false;
     if (once) return true;

@@ -16,41 +16,27 @@ struct Arrival {
     scene::Colour power;  ///< radiance of a white diffuse surface that faces it
 };
 
-class Lamp {
-public:
+/// A light with all that does not depend on the point worked out.
+struct Lamp {
     /// `at_once`: area lights are asked for one sample only, in their middle.
     Lamp(const scene::Light& light, bool at_once);
 
-    [[nodiscard]] bool shadows() const { return shadows_; }
-    /// Samples of one hit that share the lamp's power; 1 but for area lights.
-    [[nodiscard]] int samples() const { return samples_; }
     /// True for lamps whose light depends on the sample.
-    [[nodiscard]] bool is_area() const { return kind_ == scene::LightKind::area && samples_ > 1; }
+    [[nodiscard]] bool is_area() const { return kind == scene::LightKind::area && samples > 1; }
     /// What arrives at `point`; of area lights from their place `s`, which gives their whole power.
     /// False: nothing.
-    [[nodiscard]] bool arrive(Vec3 point, Point2 s, Arrival& out) const {
-        if (kind_ == scene::LightKind::directional) {
-            out.direction = direction_;
-            out.distance = std::numeric_limits<double>::infinity();
-            out.power = power_;
-            return true;
-        }
-        return arrive_from_place(point, s, out);
-    }
+    [[nodiscard]] bool arrive(Vec3 point, Point2 s, Arrival& out) const;
 
-private:
-    [[nodiscard]] bool arrive_from_place(Vec3 point, Point2 s, Arrival& out) const;
-
-    scene::LightKind kind_;
-    Vec3 direction_;  ///< towards the light
-    Vec3 position_;
-    Vec3 edge_u_;
-    Vec3 edge_v_;
-    scene::Colour power_;
-    double cosine_full_ = -1.0;  ///< spot: full light within this angle
-    double cosine_none_ = -1.0;  ///< and none outside of this
-    int samples_ = 1;
-    bool shadows_;
+    scene::LightKind kind;
+    Vec3 direction;  ///< towards the light, unit
+    Vec3 position;
+    Vec3 edge_u;
+    Vec3 edge_v;
+    scene::Colour power;
+    double cosine_full = -1.0;  ///< spot: full light within this angle
+    double cosine_none = -1.0;  ///< and none outside of this
+    int samples = 1;            ///< of one hit that share the lamp's power; 1 but for area lights
+    bool shadows;
 };
 
 /// The lamps that shine at all.

@@ -66,7 +66,7 @@ TEST_CASE("area lamps shine from all of their parallelogram, or from its middle"
     light.samples = 9;
     const Lamp lamp(light, false);
     CHECK(lamp.is_area());
-    CHECK(lamp.samples() == 9);
+    CHECK(lamp.samples == 9);
     Arrival a;
     REQUIRE(lamp.arrive({-1, -1, 0}, {0, 0}, a));
     CHECK(a.direction == Vec3{0, 0, 1});

@@ -4,8 +4,12 @@
 #include <cmath>
 #include <numbers>
 
+#include "raymo/math/lanes.hpp"
+
 namespace raymo::render {
 namespace {
+
+#include "raymo/render/light_model.inl"
 
 double clamp01(double x) { return x > 0.0 ? (x < 1.0 ? x : 1.0) : 0.0; }
 Colour clamp01(Colour c) { return {clamp01(c.x), clamp01(c.y), clamp01(c.z)}; }
@@ -26,31 +30,23 @@ double gaussian_integral(double c2_squared) {
 
 }  // namespace
 
-double fresnel(double cosine, double index) {
-    const double g2 = index * index - 1.0 + cosine * cosine;
-    if (g2 <= 0.0) return 1.0;
-    const double g = std::sqrt(g2);
-    const double sum = g + cosine;
-    const double difference = g - cosine;
-    const double across = difference / sum;
-    const double ratio = (cosine * sum - 1.0) / (cosine * difference + 1.0);
-    return 0.5 * across * across * (1.0 + ratio * ratio);
-}
+double fresnel(double cosine, double index) { return fresnel_of(cosine, index); }
 
-Interface::Interface(double at_normal_incidence, double index)
-    : value_(clamp01(at_normal_incidence)),
-      index_(index > 1.0 ? std::min(index, 3.7) : 1.0),
-      fixed_(value_ == 0.0 || value_ == 1.0) {
-    const double own = fresnel(1.0, index_);
-    if (value_ < own) {
-        scale_ = value_ / own;
+Interface::Interface(double at_normal_incidence, double of_refraction)
+    : value(clamp01(at_normal_incidence)),
+      index(of_refraction > 1.0 ? std::min(of_refraction, 3.7) : 1.0) {
+    const double own = fresnel(1.0, index);
+    if (value == 0.0 || value == 1.0) {
+        offset = value;
+    } else if (value < own) {
+        scale = value / own;
     } else {
-        scale_ = (1.0 - value_) / (1.0 - own);
-        offset_ = 1.0 - scale_;
+        scale = (1.0 - value) / (1.0 - own);
+        offset = 1.0 - scale;
     }
 }
 
-Facets::Facets(scene::Facets kind, double roughness) : kind_(kind) {
+Facets::Facets(scene::Facets of_kind, double roughness) : kind(of_kind) {
     // Sharper than this a highlight is thinner than any pixel, and the density overflows.
     constexpr double kSharpest = 0.004;
     const double half = std::max(clamp01(roughness), kSharpest) * std::numbers::pi / 4.0;
@@ -58,24 +54,28 @@ Facets::Facets(scene::Facets kind, double roughness) : kind_(kind) {
     const double s = std::sin(half);
     if (kind == scene::Facets::trowbridge_reitz) {
         const double c3_squared = s * s / (std::numbers::sqrt2 - c * c);
-        shape_ = c3_squared - 1.0;
-        scale_ = c3_squared / std::numbers::pi;
+        shape = c3_squared - 1.0;
+        scale = c3_squared / std::numbers::pi;
     } else if (kind == scene::Facets::gaussian) {
-        shape_ = std::numbers::ln2 / (half * half);
-        scale_ = 1.0 / gaussian_integral(shape_);
+        shape = std::numbers::ln2 / (half * half);
+        scale = 1.0 / gaussian_integral(shape);
     } else {
-        shape_ =
-            -std::numbers::ln2 / std::log1p(-2.0 * std::sin(half / 2.0) * std::sin(half / 2.0));
-        scale_ = (shape_ + 2.0) / (2.0 * std::numbers::pi);
+        shape = -std::numbers::ln2 / std::log1p(-2.0 * std::sin(half / 2.0) * std::sin(half / 2.0));
+        scale = (shape + 2.0) / (2.0 * std::numbers::pi);
     }
 }
 
-double Facets::slow_density(double cosine) const {
-    if (kind_ == scene::Facets::gaussian) {
+double Facets::density(double cosine) const {
+    if (kind == scene::Facets::trowbridge_reitz) return facet_density(cosine, shape, scale);
+    if (kind == scene::Facets::gaussian) {
         const double angle = std::acos(std::min(cosine, 1.0));
-        return scale_ * std::exp(-shape_ * angle * angle);
+        return scale * std::exp(-shape * angle * angle);
     }
-    return scale_ * std::exp2(shape_ * std::log2(std::min(cosine, 1.0)));
+    return scale * std::exp2(shape * std::log2(std::min(cosine, 1.0)));
+}
+
+double facet_geometry(double nh, double nv, double nl, double vh) {
+    return facet_geometry_of(nh, nv, nl, vh);
 }
 
 Surface::Surface(const scene::Material& material)
@@ -96,6 +96,12 @@ Surface::Surface(const scene::Material& material)
     absorbs = transparent && max_norm(absorption) > 0.0;
 }
 
+Colour Surface::reflected(double reflectance, double normal_value) const {
+    const auto c =
+        reflected_colour(tinted, Triple<double>{tint.x, tint.y, tint.z}, reflectance, normal_value);
+    return {c.x, c.y, c.z};
+}
+
 Colour transmittance(const Surface& medium, double length) {
     if (!medium.absorbs) return {1, 1, 1};
     const Vec3 a = medium.absorption;
@@ -111,17 +117,15 @@ Colour facet_term(const Surface& surface, double nv, double nl, double vl) {
     const double f = surface.specular(vh);
     const double rest =
         std::numbers::pi * surface.facets.density(nh) * facet_geometry(nh, nv, nl, vh);
-    return surface.reflected(f, surface.specular.value()) * rest;
+    return surface.reflected(f, surface.specular.value) * rest;
 }
 
 bool refracted_direction(Vec3 d, Vec3 n, double index, Vec3& out) {
-    const double cosine = -dot(d, n);
-    const double g2 = index * index - 1.0 + cosine * cosine;
-    if (!(g2 > 0.0)) return false;
-    out = (d + n * (cosine - std::sqrt(g2))) * (1.0 / index);
-    // Unit up to rounding, which repeated refraction would add up.
-    out = out * (1.5 - 0.5 * dot(out, out));
-    return true;
+    bool there = false;
+    const auto r =
+        refracted_of(Triple<double>{d.x, d.y, d.z}, Triple<double>{n.x, n.y, n.z}, index, there);
+    if (there) out = {r.x, r.y, r.z};
+    return there;
 }
 
 }  // namespace raymo::render

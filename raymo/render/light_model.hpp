@@ -33,63 +33,41 @@ using scene::Colour;
 ///     r / F(0) F                              for r below F(0): an interface that is partly covered
 ///     1 - (1 - r) (1 - F) / (1 - F(0))        above: it reflects more, and still all at grazing
 /// Both are F itself where r is F(0).
-class Interface {
-public:
+struct Interface {
+    double value = 0.0;  ///< at normal incidence
+    double index = 1.0;  ///< of refraction
+    // Reflectance = offset + scale * fresnel(cosine, index). What reflects nothing or everything does not grow.
+    double offset = 0.0;
+    double scale = 0.0;
+
     Interface() = default;
     /// `index` is brought into 1..3.7, where F never falls as the angle grows.
     Interface(double at_normal_incidence, double index);
     [[nodiscard]] double operator()(double cosine) const {
-        return fixed_ ? value_ : offset_ + scale_ * fresnel(cosine, index_);
+        return offset + scale * fresnel(cosine, index);
     }
     /// True when it reflects nothing at any angle.
-    [[nodiscard]] bool none() const { return fixed_ && value_ == 0.0; }
-    /// At normal incidence.
-    [[nodiscard]] double value() const { return value_; }
-
-private:
-    double value_ = 0.0;
-    double index_ = 1.0;
-    double offset_ = 0.0;
-    double scale_ = 0.0;
-    bool fixed_ = true;  ///< no growth towards grazing: nothing is reflected, or everything
+    [[nodiscard]] bool none() const { return offset == 0.0 && scale == 0.0; }
 };
 
 /// Distribution of the facets' normals. `roughness` 0..1 sets the angle, up to 45 degrees, at which
 /// the density has fallen to half [Blinn77]; all three distributions have it in common, so that
 /// they can be exchanged.
-class Facets {
-public:
+struct Facets {
+    scene::Facets kind;
+    double shape;  ///< Trowbridge-Reitz: c3^2 - 1; Gaussian: c2^2; Phong: c1, in Blinn's letters
+    double scale;
+
     Facets() : Facets(scene::Facets::trowbridge_reitz, 0.35) {}
     Facets(scene::Facets kind, double roughness);
     /// D [1/sr] for the cosine n.h > 0. Normalised: the integral of D cosine over the hemisphere
     /// is 1.
-    [[nodiscard]] double density(double cosine) const {
-        if (kind_ == scene::Facets::trowbridge_reitz) {
-            const double s = cosine * cosine * shape_ + 1.0;
-            return scale_ / (s * s);
-        }
-        return slow_density(cosine);
-    }
-
-private:
-    [[nodiscard]] double slow_density(double cosine) const;
-
-    scene::Facets kind_;
-    double shape_;  ///< Trowbridge-Reitz: c3^2 - 1; Gaussian: c2^2; Phong: c1, in Blinn's letters
-    double scale_;
+    [[nodiscard]] double density(double cosine) const;
 };
 
 /// G / (4 n.l n.v), the geometric part of the facet term, finite also at grazing angles. All
 /// cosines > 0.
-[[nodiscard]] inline double facet_geometry(double nh, double nv, double nl, double vh) {
-    // min(1, 2 nh nv / vh, 2 nh nl / vh) / (4 nl nv): the least of the three, with the division
-    // carried out in each.
-    const double lesser = nv < nl ? nv : nl;
-    const double greater = nv < nl ? nl : nv;
-    const double open = 0.25 / (lesser * greater);
-    const double grooved = 0.5 * nh / (vh * greater);
-    return grooved < open ? grooved : open;
-}
+[[nodiscard]] double facet_geometry(double nh, double nv, double nl, double vh);
 
 /// A material with all that does not depend on the ray worked out.
 struct Surface {
@@ -97,18 +75,16 @@ struct Surface {
     Interface specular;  ///< of the facets, for the light of lamps and of the surroundings
     Interface mirror;    ///< for mirror images; unused where transparent
     Facets facets;
-    Colour tint{
-        1, 1,
-        1};  ///< of what the interface reflects at normal incidence: white, or a metal's colour
+    Colour tint{1, 1,
+                1};  ///< of what the interface reflects from above: white, or a metal's colour
     bool tinted = false;
     double metal = 0.0;
     bool transparent = false;
     double transmission = 0.0;
-    double opaque_part = 1.0;  ///< 1 - transmission
-    double least_mirror =
-        0.0;  ///< transparent: reflectance at normal incidence that the material asks for
-    double index = 1.0;  ///< of refraction
-    Vec3 absorption;     ///< [1/mm]
+    double opaque_part = 1.0;   ///< 1 - transmission
+    double least_mirror = 0.0;  ///< transparent: reflectance from above that the material asks for
+    double index = 1.0;         ///< of refraction
+    Vec3 absorption;            ///< [1/mm]
     bool absorbs = false;
 
     Surface() = default;
@@ -116,12 +92,7 @@ struct Surface {
 
     /// Colour of an interface that reflects `reflectance` there, `normal_value` at normal
     /// incidence.
-    [[nodiscard]] Colour reflected(double reflectance, double normal_value) const {
-        if (!tinted || normal_value >= 1.0) return (tinted ? tint : Colour{1, 1, 1}) * reflectance;
-        // From tint * value at normal incidence to white at grazing.
-        const double growth = (reflectance - normal_value) / (1.0 - normal_value);
-        return tint * (normal_value * (1.0 - growth)) + Colour{growth, growth, growth};
-    }
+    [[nodiscard]] Colour reflected(double reflectance, double normal_value) const;
 };
 
 /// What is left of white light after `length` mm inside.
@@ -131,9 +102,6 @@ struct Surface {
 /// this times irradiance times n.l. Times pi, as a light's power is that of a white diffuse surface
 /// facing it.
 [[nodiscard]] Colour facet_term(const Surface& surface, double nv, double nl, double vl);
-
-/// Direction of the mirror image; `d` towards the surface, both unit, n.d < 0.
-[[nodiscard]] inline Vec3 reflected_direction(Vec3 d, Vec3 n) { return d - n * (2.0 * dot(d, n)); }
 
 /// Direction behind an interface (Snell's law); n.d < 0, `index` as in fresnel(). False: total
 /// reflection.

@@ -216,7 +216,7 @@ TEST_CASE("metals: their colour from above, white at grazing") {
     CHECK(grazing.z == doctest::Approx(1.0));
 }
 
-TEST_CASE("refraction: Snell's law, and unit directions") {
+TEST_CASE("refraction: Snell's law and unit directions") {
     const Vec3 n{0, 0, 1};
     for (int i = 0; i < 90; i += 5) {
         const double a = i * kPi / 180.0;
@@ -231,7 +231,6 @@ TEST_CASE("refraction: Snell's law, and unit directions") {
     }
     Vec3 t;
     CHECK_FALSE(refracted_direction({0.8, 0, -0.6}, n, 1.0 / 1.5, t));
-    CHECK(reflected_direction({0.6, 0, -0.8}, n) == Vec3{0.6, 0, 0.8});
 }
 
 TEST_CASE("absorption: falls exponentially, by colour") {

@@ -82,10 +82,17 @@ public:
     explicit Eye(const Studio& studio)
         : scene_(studio.compiled()), stage_(scene_, studio.look, studio.options), shader_(stage_) {}
     Colour operator()(Vec3 from, Vec3 to) {
-        const EyeRay ray{{from, unit(to - from)}, 1, 0, 1};
-        Answer answer;
-        shader_.answer({&ray, 1}, &answer);
-        return answer.light;
+        trace::RayQuery query;
+        query.ray = {from, unit(to - from)};
+        EyeBatch eyes;
+        eyes.count = 1;
+        eyes.seed[0] = 1;
+        eyes.sample[0] = 0;
+        eyes.rays[0].set(0, query);
+        eyes.rays[0].fill_up(1);
+        Answers answers;
+        shader_.answer(eyes, answers);
+        return answers.light[0];
     }
 
 private:

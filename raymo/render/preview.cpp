@@ -49,40 +49,31 @@ struct Lattice {
     }
 };
 
-/// Rays for points of the lattice.
-class Tracing {
-public:
-    Tracing(const Sitting& s, Lattice& lattice, RayShader& shader)
-        : s_(&s),
-          columns_(static_cast<std::size_t>(lattice.columns)),
-          packet_(shader, [&lattice](std::size_t index, const Answer& answer) {
-              const Colour c = answer.light;
-              lattice.samples[index] = {
-                  {static_cast<float>(c.x), static_cast<float>(c.y), static_cast<float>(c.z)},
-                  answer.signature};
-          }) {}
-    void trace(int i, int j) {
-        const int x = kBlock * i;
-        const int y = kBlock * j;
-        packet_.add({s_->view.ray(x + 0.5, y + 0.5), pixel_seed(s_->options.seed, x, y), 0, 1},
-                    static_cast<std::size_t>(j) * columns_ + static_cast<std::size_t>(i));
-    }
-    void finish() { packet_.flush(); }
-
-private:
-    const Sitting* s_;
-    std::size_t columns_;
-    Packet packet_;
-};
+/// For rays through points of the lattice.
+auto lattice_sampler(const Sitting& s, Lattice& lattice, RayShader& shader) {
+    return Sampler(
+        s, shader, 1, [&lattice](std::size_t index, const Colour& c, const Signature& signature) {
+            lattice.samples[index] = {
+                {static_cast<float>(c.x), static_cast<float>(c.y), static_cast<float>(c.z)},
+                signature};
+        });
+}
+template <class Rays>
+void trace_point(const Lattice& lattice, int i, int j, Rays& rays) {
+    rays.add_middle(kBlock * i, kBlock * j,
+                    static_cast<std::size_t>(j) * static_cast<std::size_t>(lattice.columns) +
+                        static_cast<std::size_t>(i));
+}
 
 /// Traces every `stride`-th point of the lattice, as the part 0..share of the work.
 bool trace_lattice(const Sitting& s, Lattice& lattice, int stride, double share) {
     const auto count = [stride](int n) { return (n + stride - 1) / stride; };
     const auto tiles = tiles_of(count(lattice.columns), count(lattice.rows), 2 * kTile);
     return s.crew.run(tiles, 0.0, share, [&](const Rect& tile, RayShader& shader) {
-        Tracing tracing(s, lattice, shader);
-        for_each_cell(tile, [&](int i, int j) { tracing.trace(stride * i, stride * j); });
-        tracing.finish();
+        auto rays = lattice_sampler(s, lattice, shader);
+        for_each_cell(tile,
+                      [&](int i, int j) { trace_point(lattice, stride * i, stride * j, rays); });
+        rays.flush();
     });
 }
 
@@ -170,14 +161,14 @@ bool refine_lattice(const Sitting& s, Lattice& lattice, Squares& squares, double
     }
     const auto tiles = tiles_of(squares.columns, squares.rows, 2 * kTile);
     return s.crew.run(tiles, from, to, [&](const Rect& tile, RayShader& shader) {
-        Tracing tracing(s, lattice, shader);
+        auto rays = lattice_sampler(s, lattice, shader);
         for_each_cell(tile, [&](int p, int q) {
             if (squares.at(p, q) == 0) return;
-            tracing.trace(2 * p + 1, 2 * q);
-            tracing.trace(2 * p, 2 * q + 1);
-            tracing.trace(2 * p + 1, 2 * q + 1);
+            trace_point(lattice, 2 * p + 1, 2 * q, rays);
+            trace_point(lattice, 2 * p, 2 * q + 1, rays);
+            trace_point(lattice, 2 * p + 1, 2 * q + 1, rays);
         });
-        tracing.finish();
+        rays.flush();
     });
 }
 
@@ -209,7 +200,8 @@ void interpolate(const Lattice& lattice, int i, int j, image::Film& film) {
 }
 
 /// Traces the other pixels of a block.
-void refine(const Sitting& s, const Lattice& lattice, int i, int j, Packet& packet) {
+template <class Rays>
+void refine(const Sitting& s, const Lattice& lattice, int i, int j, Rays& rays) {
     const int x0 = kBlock * i;
     const int y0 = kBlock * j;
     const Rect block{x0, y0, std::min(x0 + kBlock, s.film.width),
@@ -218,9 +210,9 @@ void refine(const Sitting& s, const Lattice& lattice, int i, int j, Packet& pack
     s.film.set(x0, y0, {c[0], c[1], c[2]});
     for_each_cell(block, [&](int x, int y) {
         if (x == x0 && y == y0) return;
-        packet.add({s.view.ray(x + 0.5, y + 0.5), pixel_seed(s.options.seed, x, y), 0, 1},
-                   static_cast<std::size_t>(y) * static_cast<std::size_t>(s.film.width) +
-                       static_cast<std::size_t>(x));
+        rays.add_middle(x, y,
+                        static_cast<std::size_t>(y) * static_cast<std::size_t>(s.film.width) +
+                            static_cast<std::size_t>(x));
     });
 }
 
@@ -264,11 +256,10 @@ bool draw_preview(const Sitting& s) {
         }
     }
     choose(wanted, allowance(kAllowanceOfPixels, blocks) / (kBlock * kBlock - 1));
-    const auto w = static_cast<std::size_t>(s.film.width);
     const auto tiles = tiles_of(blocks_x, blocks_y, kTile);
     return s.crew.run(tiles, 0.6, 1.0, [&](const Rect& tile, RayShader& shader) {
-        Packet packet(shader, [&](std::size_t pixel, const Answer& answer) {
-            s.film.set(static_cast<int>(pixel % w), static_cast<int>(pixel / w), answer.light);
+        Sampler rays(s, shader, 1, [&](std::size_t pixel, const Colour& light, const Signature&) {
+            s.film.set(pixel, light);
         });
         for (int j = tile.y0; j < tile.y1; ++j) {
             for (int i = tile.x0; i < tile.x1; ++i) {
@@ -276,13 +267,13 @@ bool draw_preview(const Sitting& s) {
                     wanted[static_cast<std::size_t>(j) * static_cast<std::size_t>(blocks_x) +
                            static_cast<std::size_t>(i)] != 0;
                 if (refined) {
-                    refine(s, lattice, i, j, packet);
+                    refine(s, lattice, i, j, rays);
                 } else {
                     interpolate(lattice, i, j, s.film);
                 }
             }
         }
-        packet.flush();
+        rays.flush();
     });
 }
 

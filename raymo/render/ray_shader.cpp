@@ -7,8 +7,9 @@ namespace raymo::render {
 namespace {
 
 using trace::Hit;
-using trace::RayQuery;
-using trace::SurfaceId;
+using trace::HitPacket;
+using trace::lowest_lane;
+using trace::RayPacket;
 
 /// Longest chain of reflections and refractions, and least weight, that options may ask for: a
 /// picture is finished whatever they say. The weights of rays of one depth add up to at most 1, so
@@ -19,25 +20,23 @@ constexpr double kLeastWeight = 0x1p-16;
 /// Light through less than this is no light.
 constexpr double kDark = 0x1p-12;
 
-std::uint32_t face_of(const Hit& hit) {
-    std::uint64_t x =
-        mix(hit.surface.leaf + (static_cast<std::uint64_t>(hit.surface.instance) << 32U));
-    x = mix(x + hit.surface.face + (static_cast<std::uint64_t>(hit.part) << 20U) +
-            (hit.entering ? 1ULL << 19U : 0U));
-    return static_cast<std::uint32_t>(x) | 1U;
+/// Less than this part of min_weight can not be seen even in sums over a few lamps.
+constexpr double kUnseen = 0.125;
+
+Signature signature_of(const HitPacket& hits, int i) {
+    std::uint64_t x = mix(hits.leaf[i] + (static_cast<std::uint64_t>(hits.instance[i]) << 32U));
+    x = mix(x + hits.face[i] + (static_cast<std::uint64_t>(hits.part[i]) << 20U) +
+            (hits.entering[i] ? 1ULL << 19U : 0U));
+    const auto scaled = [](double c) { return static_cast<std::int8_t>(c * 127.0); };
+    return {static_cast<std::uint32_t>(x) | 1U,
+            {scaled(hits.normal[0][i]), scaled(hits.normal[1][i]), scaled(hits.normal[2][i])}};
 }
 
-Signature signature_of(const Hit& hit) {
-    const auto scaled = [](double x) { return static_cast<std::int8_t>(x * 127.0); };
-    return {face_of(hit), {scaled(hit.normal.x), scaled(hit.normal.y), scaled(hit.normal.z)}};
+Colour lane_of(const double (&colours)[3][8], int lane) {
+    return {colours[0][lane], colours[1][lane], colours[2][lane]};
 }
-
-RayQuery from_surface(const Hit& hit, Vec3 direction) {
-    RayQuery query;
-    query.ray = {hit.point, direction};
-    query.start = hit.surface;
-    query.start_error = hit.point_error;
-    return query;
+void set_lane(double (&colours)[3][8], int lane, Colour c) {
+    for (int a = 0; a < 3; ++a) colours[a][lane] = c[a];
 }
 
 }  // namespace
@@ -45,15 +44,13 @@ RayQuery from_surface(const Hit& hit, Vec3 direction) {
 Stage::Stage(const trace::CompiledScene& compiled, const Look& look, const Options& options)
     : scene(&compiled),
       lamps(prepared(look.lights, options.quality != Quality::final)),
-      ambient(look.ambient),
-      background(look.background),
+      around{look.ambient, look.background},
       max_depth(options.quality == Quality::draft ? 0
                                                   : std::clamp(options.max_depth, 0, kMostDepth)),
-      min_weight(std::max(options.min_weight, kLeastWeight)) {}
+      min_weight(std::max(options.min_weight, kLeastWeight)),
+      soft(std::any_of(lamps.begin(), lamps.end(), [](const Lamp& l) { return l.is_area(); })) {}
 
-RayShader::RayShader(const Stage& stage) : stage_(&stage), tracer_(*stage.scene) {
-    pending_.reserve(64);
-}
+RayShader::RayShader(const Stage& stage) : stage_(&stage), tracer_(*stage.scene) {}
 
 trace::RayCounts RayShader::counts() const {
     trace::RayCounts counts = tracer_.counts();
@@ -77,285 +74,224 @@ const Surface& RayShader::medium(csg::MaterialId id) {
     return id == Hit::kAir ? air_ : surface(id);
 }
 
-void RayShader::answer(std::span<const EyeRay> rays, Answer* answers) {
-    eyes_ = rays;
-    answers_ = answers;
-    counts_.primary += rays.size();
-    std::array<RayQuery, kPacket>& queries = queries_;
-    std::array<Hit, kPacket>& hits = hits_;
-    std::array<bool, kPacket> found{};
-    std::array<Path, kPacket> paths;
-    for (std::size_t i = 0; i < rays.size(); ++i) queries[i] = {rays[i].ray};
-    tracer_.first_hits({queries.data(), rays.size()}, hits.data(), found.data());
-
-    std::size_t count = 0;
-    for (std::size_t i = 0; i < rays.size(); ++i) {
-        events_[i] = 0;
-        answers[i] = {};
-        if (!found[i]) {
-            answers[i].light = stage_->behind(rays[i].ray.direction);
-            continue;
+void RayShader::answer(const EyeBatch& eyes, Answers& answers) {
+    eyes_ = &eyes;
+    answers_ = &answers;
+    counts_.primary += eyes.count;
+    for (std::size_t first = 0; first < eyes.count; first += 8) {
+        const RayPacket& rays = eyes.rays[first / 8];
+        const LaneBits lanes = trace::first_lanes(std::min<std::size_t>(eyes.count - first, 8));
+        const LaneBits found = tracer_.first_hits(rays, lanes, hits_);
+        shade_background(stage_->around, rays.d, spots_.light);
+        Paths paths;
+        for (LaneBits rest = lanes; rest != 0; rest &= rest - 1) {
+            const int i = lowest_lane(rest);
+            const std::size_t owner = first + static_cast<std::size_t>(i);
+            const bool met = (found >> i & 1U) != 0;
+            answers.light[owner] = met ? Colour{} : lane_of(spots_.light, i);
+            answers.signature[owner] = met ? signature_of(hits_, i) : Signature{};
+            paths[static_cast<std::size_t>(i)].owner = static_cast<std::uint32_t>(owner);
         }
-        answers[i].signature = signature_of(hits[i]);
-        if (count != i) {
-            queries[count] = queries[i];
-            hits[count] = hits[i];
-        }
-        paths[count] = {{1, 1, 1}, 0, i, events_[i]++};
-        ++count;
-    }
-    if (count == 0) return;
-    shade(count, queries.data(), hits.data(), paths.data());
-    for (std::size_t k = 0; k < count; ++k) answers[paths[k].lane].light += brought_[k];
-
-    // Wave by wave: all rays that are one reflection or refraction further, in packets.
-    while (!pending_.empty()) {
-        wave_.swap(pending_);
-        pending_.clear();
-        for (std::size_t first = 0; first < wave_.size(); first += kPacket) {
-            follow({wave_.data() + first, std::min(kPacket, wave_.size() - first)});
+        if (found == 0) continue;
+        std::fill_n(&spots_.weight[0][0], 3 * 8, 1.0);
+        shade(rays, found, paths);
+        while (views_.size() >= 8) follow(views_);
+        while (images_.size() >= 8) {
+            follow(images_);
+            while (views_.size() >= 8) follow(views_);
         }
     }
+    while (!views_.empty() || !images_.empty()) follow(views_.empty() ? images_ : views_);
 }
 
-void RayShader::follow(std::span<const Pending> rays) {
-    std::array<RayQuery, kPacket>& queries = queries_;
-    std::array<Hit, kPacket>& hits = hits_;
-    std::array<bool, kPacket> found{};
-    std::array<Path, kPacket> paths;
-    for (std::size_t i = 0; i < rays.size(); ++i) queries[i] = rays[i].query;
-    counts_.secondary += rays.size();
-    tracer_.first_hits({queries.data(), rays.size()}, hits.data(), found.data());
-
-    std::array<Colour, kPacket> brought{};
-    std::array<std::size_t, kPacket> which{};
-    std::size_t count = 0;
-    for (std::size_t i = 0; i < rays.size(); ++i) {
-        if (!found[i]) {
-            brought[i] = rays[i].path.weight * stage_->behind(rays[i].query.ray.direction);
-            continue;
+void RayShader::follow(RayStack& stack) {
+    RayPacket rays;
+    Paths paths;
+    const LaneBits lanes = trace::first_lanes(stack.pop(rays, spots_.weight, paths));
+    counts_.secondary += static_cast<std::uint64_t>(trace::lane_count(lanes));
+    rays.fill_up(lanes);
+    const LaneBits found = tracer_.first_hits(rays, lanes, hits_);
+    if (found != lanes) {
+        shade_background(stage_->around, rays.d, spots_.light);
+        for (LaneBits rest = lanes & ~found; rest != 0; rest &= rest - 1) {
+            const int i = lowest_lane(rest);
+            answers_->light[paths[static_cast<std::size_t>(i)].owner] +=
+                lane_of(spots_.weight, i) * lane_of(spots_.light, i);
         }
-        queries[count] = queries[i];
-        hits[count] = hits[i];
-        paths[count] = rays[i].path;
-        paths[count].event = events_[rays[i].path.lane]++;
-        which[count++] = i;
     }
-    if (count > 0) shade(count, queries.data(), hits.data(), paths.data());
-    for (std::size_t k = 0; k < count; ++k) brought[which[k]] = brought_[k];
-    // In the order of the rays, so that a sum does not depend on what else is in the packet.
-    for (std::size_t i = 0; i < rays.size(); ++i) answers_[rays[i].path.lane].light += brought[i];
+    if (found != 0) shade(rays, found, paths);
 }
 
-void RayShader::shade(std::size_t count, const RayQuery* queries, const Hit* hits,
-                      const Path* paths) {
-    std::array<Spot, kPacket> spots;
-    std::array<Path, kPacket> arrived;
-    for (std::size_t i = 0; i < count; ++i) {
-        arrived[i] = paths[i];
-        brought_[i] = {};
-        spots[i] = approach(queries[i], hits[i], arrived[i], brought_[i]);
-    }
-    for (const Lamp& lamp : stage_->lamps) {
-        if (!lamp.is_area()) {
-            light_directly(lamp, count, queries, hits, arrived.data(), spots.data());
-            continue;
-        }
-        for (std::size_t i = 0; i < count; ++i) {
-            if (spots[i].lit) light_softly(lamp, queries[i], hits[i], arrived[i], spots[i]);
-        }
-    }
-    for (std::size_t i = 0; i < count; ++i) {
-        brought_[i] += arrived[i].weight * spots[i].light;
-    }
-}
-
-/// All of a hit but the lamps: absorption on the way, ambient light, and the rays that go on from
-/// here.
-RayShader::Spot RayShader::approach(const RayQuery& query, const Hit& hit, Path& path,
-                                    Colour& brought) {
-    const Surface* material = &surface(hit.material);
-    double index = 1.0;
-    if (stage_->scene->has_transparency()) {
-        const Surface& before = medium(hit.medium_before);
-        if (before.absorbs) path.weight = path.weight * transmittance(before, hit.t);
-        if (material->transparent) {
-            const Surface& after = medium(hit.medium_after);
-            // Where something opaque starts right behind a transparent surface, that is what is
-            // seen.
-            if (hit.medium_after != Hit::kAir && !after.transparent) {
-                material = &after;
-            } else {
-                index = after.index / before.index;
+/// The surfaces that were met, and what the way there has absorbed.
+void RayShader::look_up(LaneBits lanes) {
+    const int some = lowest_lane(lanes);
+    spots_.same = true;
+    spots_.tinted = spots_.transparent = spots_.mirrors = spots_.slow = 0;
+    const bool clear = stage_->scene->has_transparency();
+    for (LaneBits rest = lanes; rest != 0; rest &= rest - 1) {
+        const int i = lowest_lane(rest);
+        const LaneBits bit = 1U << i;
+        const Surface* material = &surface(hits_.material[i]);
+        spots_.index[i] = 1.0;
+        if (clear) {
+            const Surface& before = medium(hits_.medium_before[i]);
+            if (before.absorbs) {
+                set_lane(spots_.weight, i,
+                         lane_of(spots_.weight, i) * transmittance(before, hits_.t[i]));
+            }
+            if (material->transparent) {
+                const Surface& after = medium(hits_.medium_after[i]);
+                // Where something opaque starts right behind a transparent surface, that is what is
+                // seen.
+                if (hits_.medium_after[i] != Hit::kAir && !after.transparent) {
+                    material = &after;
+                } else {
+                    spots_.index[i] = after.index / before.index;
+                    spots_.transparent |= bit;
+                }
             }
         }
+        spots_.surface[i] = material;
+        spots_.same = spots_.same && material == spots_.surface[some];
+        if (material->tinted) spots_.tinted |= bit;
+        if (!material->transparent && !material->mirror.none()) spots_.mirrors |= bit;
+        if (material->facets.kind != scene::Facets::trowbridge_reitz) spots_.slow |= bit;
     }
+    for (LaneBits rest = ~lanes & trace::kAllLanes; rest != 0; rest &= rest - 1) {
+        spots_.surface[lowest_lane(rest)] = spots_.surface[some];
+        spots_.index[lowest_lane(rest)] = 1.0;
+    }
+}
 
-    Spot spot;
-    spot.surface = material;
-    spot.normal = hit.entering ? hit.normal : -hit.normal;
-    // Rounding may put a surface seen edge-on on the wrong side.
-    spot.nv = std::max(-dot(spot.normal, query.ray.direction), 1e-9);
-    const double facets = material->specular(spot.nv);
-    const double mirror =
-        material->transparent
-            ? std::max(fresnel(spot.nv, index), index == 1.0 ? 0.0 : material->least_mirror)
-            : material->mirror(spot.nv);
-    spot.body = material->body * ((1.0 - facets) * (1.0 - mirror));
-    spot.light = spot.body * stage_->ambient;
-    if (facets > mirror) {
-        const double rest = (facets - mirror) * material->opaque_part;
-        const Vec3 image = reflected_direction(query.ray.direction, spot.normal);
-        spot.light += stage_->surroundings(image, material->metal) *
-                      material->reflected(facets, material->specular.value()) * (rest / facets);
-    }
-    spot.lit = !material->transparent || hit.entering;
-
-    if (mirror > 0.0) {
-        const double normal_value =
-            material->transparent ? fresnel(1.0, index) : material->mirror.value();
-        const Colour part = mirror >= 1.0
-                                ? (material->transparent ? Colour{1, 1, 1} : material->tint)
-                                : material->reflected(mirror, normal_value);
-        spawn(hit, reflected_direction(query.ray.direction, spot.normal), path, part, brought);
-    }
-    if (material->transparent && mirror < 1.0) {
-        Vec3 direction;
-        if (refracted_direction(query.ray.direction, spot.normal, index, direction)) {
-            const double part = material->transmission * (1.0 - mirror);
-            spawn(hit, direction, path, {part, part, part}, brought);
+void RayShader::shade(const RayPacket& rays, LaneBits lanes, const Paths& paths) {
+    look_up(lanes);
+    shade_surroundings(stage_->around, rays.d, hits_, lanes, spots_, reflected_, refracted_);
+    go_on(reflected_, paths, 0);
+    go_on(refracted_, paths, 1);
+    const double least = kUnseen * stage_->min_weight;
+    for (const Lamp& lamp : stage_->lamps) {
+        if (lamp.is_area()) {
+            for (LaneBits rest = spots_.lit; rest != 0; rest &= rest - 1) {
+                const int i = lowest_lane(rest);
+                light_softly(lamp, rays, i, paths[static_cast<std::size_t>(i)]);
+            }
+            continue;
+        }
+        shade_by_lamp(lamp, rays.d, hits_, spots_.lit, spots_, least, gains_, shadows_);
+        if (gains_.lanes == 0) continue;
+        if (lamp.shadows) dim(shadows_, -1);
+        for (LaneBits rest = gains_.lanes; rest != 0; rest &= rest - 1) {
+            const int i = lowest_lane(rest);
+            for (int a = 0; a < 3; ++a) spots_.light[a][i] += gains_.light[a][i];
         }
     }
-    return spot;
+    for (LaneBits rest = lanes; rest != 0; rest &= rest - 1) {
+        const int i = lowest_lane(rest);
+        answers_->light[paths[static_cast<std::size_t>(i)].owner] +=
+            lane_of(spots_.weight, i) * lane_of(spots_.light, i);
+    }
 }
 
-/// Lets a ray go on, or puts ambient light in the place of what it would bring.
-void RayShader::spawn(const Hit& hit, Vec3 direction, const Path& path, Colour weight,
-                      Colour& brought) {
-    const Colour total = path.weight * weight;
-    if (path.depth >= stage_->max_depth || max_norm(total) < stage_->min_weight) {
-        brought += total * stage_->ambient;
-        return;
+/// Lets rays go on, or puts ambient light in the place of what they would bring. `turn`: 1 where they are refracted.
+void RayShader::go_on(const Onward& onward, const Paths& paths, std::uint32_t turn) {
+    RayStack& stack = turn == 0 ? images_ : views_;
+    for (LaneBits rest = onward.lanes; rest != 0; rest &= rest - 1) {
+        const int i = lowest_lane(rest);
+        const Path& path = paths[static_cast<std::size_t>(i)];
+        const Colour weight = lane_of(onward.weight, i);
+        if (path.depth >= stage_->max_depth || max_norm(weight) < stage_->min_weight) {
+            answers_->light[path.owner] += weight * stage_->around.ambient;
+        } else {
+            stack.push(hits_, onward, i, {path.owner, 2 * path.name + turn, path.depth + 1});
+        }
     }
-    pending_.push_back({from_surface(hit, direction), {total, path.depth + 1, path.lane, 0}});
-}
-
-void RayShader::light_directly(const Lamp& lamp, std::size_t count, const RayQuery* queries,
-                               const Hit* hits, const Path* paths, Spot* spots) {
-    std::array<RayQuery, kPacket>& shadows = shadows_;
-    std::array<Colour, kPacket> gains;
-    std::array<std::size_t, kPacket> which;
-    std::array<csg::MaterialId, kPacket> media;
-    std::size_t rays = 0;
-    Arrival arrival;
-    for (std::size_t i = 0; i < count; ++i) {
-        if (!spots[i].lit || !lamp.arrive(hits[i].point, {0.5, 0.5}, arrival)) continue;
-        const double nl = dot(spots[i].normal, arrival.direction);
-        if (nl <= 0.0) continue;
-        gains[rays] = gain(queries[i], arrival, nl, spots[i]);
-        if (!matters(gains[rays], paths[i])) continue;
-        shadows[rays] = from_surface(hits[i], arrival.direction);
-        shadows[rays].t_max = arrival.distance;
-        media[rays] = hits[i].medium_before;
-        which[rays++] = i;
-    }
-    if (rays == 0) return;
-    if (lamp.shadows()) dim({shadows.data(), rays}, media.data(), gains.data());
-    for (std::size_t r = 0; r < rays; ++r) spots[which[r]].light += gains[r];
 }
 
 /// The lamp's light by several samples of its area; the fewer, the less the hit counts in the picture.
-void RayShader::light_softly(const Lamp& lamp, const RayQuery& query, const Hit& hit,
-                             const Path& path, Spot& spot) {
-    const EyeRay& eye = eyes_[path.lane];
-    const double share = std::min(max_norm(path.weight), 1.0) / eye.samples;
-    const auto samples =
-        static_cast<std::uint32_t>(std::max(std::ceil(lamp.samples() * share), 1.0));
+void RayShader::light_softly(const Lamp& lamp, const RayPacket& rays, int lane, const Path& path) {
+    const double share = std::min(max_norm(lane_of(spots_.weight, lane)), 1.0) / eyes_->samples;
+    const auto samples = static_cast<std::uint32_t>(std::max(std::ceil(lamp.samples * share), 1.0));
     const double part = 1.0 / samples;
     // Every hit and lamp has its own set of points, of which the pixel's samples take their turns.
     const std::uint64_t set =
-        mix(eye.seed + (static_cast<std::uint64_t>(path.event) << 40U) +
-            (static_cast<std::uint64_t>(&lamp - stage_->lamps.data()) << 32U) + 1);
-
-    Arrival arrival;
-    for (std::uint32_t first = 0; first < samples; first += kPacket) {
-        const std::uint32_t last = std::min<std::uint32_t>(first + kPacket, samples);
-        std::array<RayQuery, kPacket>& shadows = shadows_;
-        std::array<Colour, kPacket> gains;
-        std::array<csg::MaterialId, kPacket> media;
-        std::size_t rays = 0;
-        for (std::uint32_t k = first; k < last; ++k) {
-            const Point2 place = sample_point(eye.sample * samples + k, set);
-            if (!lamp.arrive(hit.point, place, arrival)) continue;
-            const double nl = dot(spot.normal, arrival.direction);
-            if (nl <= 0.0) continue;
-            gains[rays] = gain(query, arrival, nl, spot);
-            if (!matters(gains[rays], path)) continue;
-            shadows[rays] = from_surface(hit, arrival.direction);
-            shadows[rays].t_max = arrival.distance;
-            media[rays++] = hit.medium_before;
+        mix(eyes_->seed[path.owner] + (static_cast<std::uint64_t>(path.name) << 32U) +
+            static_cast<std::uint64_t>(&lamp - stage_->lamps.data()) + 1);
+    alignas(64) double u[8] = {};
+    alignas(64) double v[8] = {};
+    const double least = kUnseen * stage_->min_weight;
+    for (std::uint32_t first = 0; first < samples; first += 8) {
+        const std::uint32_t count = std::min(samples - first, 8U);
+        for (std::uint32_t k = 0; k < count; ++k) {
+            const Point2 place = sample_point(eyes_->sample[path.owner] * samples + first + k, set);
+            u[k] = place.u;
+            v[k] = place.v;
         }
-        if (rays == 0) continue;
-        if (lamp.shadows()) dim({shadows.data(), rays}, media.data(), gains.data());
-        for (std::size_t r = 0; r < rays; ++r) spot.light += gains[r] * part;
-    }
-}
-
-/// Radiance towards the viewer for a lamp that nothing hides.
-Colour RayShader::gain(const RayQuery& query, const Arrival& arrival, double nl,
-                       const Spot& spot) const {
-    const Colour power = arrival.power * nl;
-    const Surface& material = *spot.surface;
-    if (material.specular.none()) return power * spot.body;
-    const double vl = -dot(query.ray.direction, arrival.direction);
-    return power *
-           (spot.body * (1.0 - material.specular(nl)) + facet_term(material, spot.nv, nl, vl));
-}
-
-/// Takes from the gains of a packet of shadow rays what does not arrive. `media`: in which each ray starts.
-void RayShader::dim(std::span<const RayQuery> shadows, const csg::MaterialId* media,
-                    Colour* gains) {
-    counts_.shadow += shadows.size();
-    std::array<bool, kPacket> met{};
-    if (!stage_->scene->has_transparency()) {
-        tracer_.occluded(shadows, met.data());
-        for (std::size_t r = 0; r < shadows.size(); ++r) {
-            if (met[r]) gains[r] = {};
-        }
-        return;
-    }
-    std::array<Hit, kPacket>& hits = shadow_hits_;
-    tracer_.first_hits(shadows, hits.data(), met.data());
-    for (std::size_t r = 0; r < shadows.size(); ++r) {
-        if (!met[r]) {
-            const Surface& around = medium(media[r]);
-            if (around.absorbs) gains[r] = gains[r] * transmittance(around, shadows[r].t_max);
-        } else {
-            gains[r] = gains[r] * filtered(shadows[r], hits[r]);
+        shade_by_lamp_places(lamp, rays.d, hits_, lane, trace::first_lanes(count), u, v, spots_,
+                             least, gains_, shadows_);
+        if (gains_.lanes == 0) continue;
+        if (lamp.shadows) dim(shadows_, lane);
+        for (LaneBits rest = gains_.lanes; rest != 0; rest &= rest - 1) {
+            const int i = lowest_lane(rest);
+            for (int a = 0; a < 3; ++a) spots_.light[a][lane] += gains_.light[a][i] * part;
         }
     }
 }
 
-/// What transparent parts on the way to a lamp leave of its light, from the first surface `hit` on. It goes straight on,
-/// as bending would leave the lamp aside [Whitted80].
-Colour RayShader::filtered(RayQuery shadow, Hit hit) {
-    Colour left{1, 1, 1};
-    for (;;) {
-        left = left * transmittance(medium(hit.medium_before), hit.t);
-        const Surface& material = surface(hit.material);
-        if (!material.transparent) return {};
-        const double ratio = medium(hit.medium_after).index / medium(hit.medium_before).index;
-        const double cosine = std::fabs(dot(hit.normal, shadow.ray.direction));
-        left *= material.transmission * (1.0 - fresnel(cosine, std::max(ratio, 1.0 / ratio)));
-        if (max_norm(left) < kDark) return {};
-        const double rest = shadow.t_max - hit.t;
-        const Surface& behind = medium(hit.medium_after);
-        shadow = from_surface(hit, shadow.ray.direction);
-        shadow.t_max = rest;
-        ++counts_.shadow;
-        if (!tracer_.first_hit(shadow, hit)) {
-            return behind.absorbs ? left * transmittance(behind, rest) : left;
+/// Takes from the gains what does not arrive. Ray i of `shadows` starts at hit `hit`, or at hit i if that is -1.
+void RayShader::dim(RayPacket& shadows, int hit) {
+    counts_.shadow += static_cast<std::uint64_t>(trace::lane_count(gains_.lanes));
+    if (gains_.lanes != trace::kAllLanes) shadows.fill_up(gains_.lanes);
+    if (stage_->scene->has_transparency()) {
+        filter(shadows, hit);
+    } else {
+        gains_.lanes &= ~tracer_.occluded(shadows, gains_.lanes);
+    }
+}
+
+/// The same with transparent parts on the way to a lamp. Light goes straight on through them, as bending would leave the
+/// lamp aside [Whitted80].
+void RayShader::filter(RayPacket& shadows, int hit) {
+    std::array<const Surface*, 8> around;
+    std::array<Colour, 8> left;
+    for (LaneBits rest = gains_.lanes; rest != 0; rest &= rest - 1) {
+        const auto i = static_cast<std::size_t>(lowest_lane(rest));
+        around[i] = &medium(hits_.medium_before[hit < 0 ? i : static_cast<std::size_t>(hit)]);
+        left[i] = {1, 1, 1};
+    }
+    const HitPacket& met = shadow_hits_;
+    for (LaneBits going = gains_.lanes;;) {
+        const LaneBits found = tracer_.first_hits(shadows, going, shadow_hits_);
+        for (LaneBits rest = going; rest != 0; rest &= rest - 1) {
+            const int i = lowest_lane(rest);
+            const auto k = static_cast<std::size_t>(i);
+            if ((found >> i & 1U) == 0) {
+                if (around[k]->absorbs)
+                    left[k] = left[k] * transmittance(*around[k], shadows.t_max[i]);
+                set_lane(gains_.light, i, lane_of(gains_.light, i) * left[k]);
+                continue;
+            }
+            const Surface& before = medium(met.medium_before[i]);
+            if (before.absorbs) left[k] = left[k] * transmittance(before, met.t[i]);
+            const Surface& material = surface(met.material[i]);
+            if (material.transparent) {
+                around[k] = &medium(met.medium_after[i]);
+                const double ratio = around[k]->index / before.index;
+                const double cosine = std::fabs(dot(lane_of(met.normal, i), lane_of(shadows.d, i)));
+                left[k] *=
+                    material.transmission * (1.0 - fresnel(cosine, std::max(ratio, 1.0 / ratio)));
+            }
+            if (!material.transparent || max_norm(left[k]) < kDark) {
+                gains_.lanes &= ~(1U << i);
+                continue;
+            }
+            for (int a = 0; a < 3; ++a) shadows.o[a][i] = met.point[a][i];
+            shadows.start_error[i] = met.point_error[i];
+            shadows.t_max[i] -= met.t[i];
         }
+        going &= found & gains_.lanes;
+        if (going == 0) return;
+        counts_.shadow += static_cast<std::uint64_t>(trace::lane_count(going));
+        if (going != trace::kAllLanes) shadows.fill_up(going);
     }
 }
 

@@ -5,8 +5,8 @@
 //     body * ambient + facets * surroundings
 //     power n.l (body + facets) for each lamp that is not hidden                  (light_model.hpp)
 //     the mirror image and the refracted image                           (rays that are traced next)
-// Rays to be traced next wait in a list with the weight that they will have in the picture, so
-// there is no recursion; they are traced in packets, one wave a bounce.
+// Rays to be traced next wait on stacks with the weight that they will have in the picture, so there is no recursion; they
+// are traced in packets, as soon as there are enough of them.
 // A ray that starts on a surface names that surface instead of starting a little above it; together
 // with exact normals this leaves neither acne nor light leaks. A lamp behind a surface does not
 // light it.
@@ -14,13 +14,11 @@
 
 #include <array>
 #include <memory>
-#include <span>
 #include <vector>
 
-#include "raymo/render/lamps.hpp"
-#include "raymo/render/light_model.hpp"
+#include "raymo/render/ray_stack.hpp"
 #include "raymo/render/render.hpp"
-#include "raymo/trace/tracer.hpp"
+#include "raymo/render/shade.hpp"
 
 namespace raymo::render {
 
@@ -28,32 +26,12 @@ namespace raymo::render {
 struct Stage {
     const trace::CompiledScene* scene = nullptr;
     std::vector<Lamp> lamps;
-    Colour ambient;
-    scene::Background background;
+    Surroundings around;
     int max_depth = 8;
     double min_weight = 1.0 / 512;
+    bool soft = false;  ///< some lamp's light depends on the sample
 
     Stage(const trace::CompiledScene& scene, const Look& look, const Options& options);
-
-    /// What is seen in unit direction `d` where nothing is.
-    [[nodiscard]] Colour behind(Vec3 d) const {
-        const double up = 0.5 + 0.5 * d.z;
-        return background.bottom * (1.0 - up) + background.top * up;
-    }
-    /// What facets that are not traced reflect from direction `d`. Mostly that is other parts, in ambient light; but a
-    /// metal shows little else than what is around it, so half of that is taken from the backdrop.
-    [[nodiscard]] Colour surroundings(Vec3 d, double metal) const {
-        return ambient + (behind(d) - ambient) * (0.5 * metal);
-    }
-};
-
-/// A ray from the eye. Samples of one pixel share its `seed`; together they use each area light's
-/// samples once.
-struct EyeRay {
-    Ray ray;  ///< unit direction
-    std::uint64_t seed = 0;
-    std::uint32_t sample = 0;
-    std::uint32_t samples = 1;
 };
 
 /// Tells surfaces apart: equal for rays that saw the same face of the same leaf of the same part.
@@ -64,66 +42,47 @@ struct Signature {
     friend bool operator==(const Signature&, const Signature&) = default;
 };
 
-struct Answer {
-    Colour light;
-    Signature signature;
+/// Rays from the eye, of unit direction.
+struct EyeBatch {
+    static constexpr std::size_t kMost = 256;
+    std::size_t count = 0;
+    std::array<trace::RayPacket, kMost / 8> rays;
+    /// Samples of one pixel share its seed; together they use each area light's samples once. Not read unless Stage::soft.
+    std::array<std::uint64_t, kMost> seed;
+    std::array<std::uint32_t, kMost> sample;  ///< number of the ray among those of its pixel
+    std::uint32_t samples = 1;                ///< rays of each pixel
+};
+
+/// What they bring.
+struct Answers {
+    std::array<Colour, EyeBatch::kMost> light;
+    std::array<Signature, EyeBatch::kMost> signature;
 };
 
 /// Answers rays. Holds scratch memory, so one per thread.
 class RayShader {
 public:
-    static constexpr std::size_t kPacket = trace::Tracer::kPacket;
-
     /// `stage` must outlive it.
     explicit RayShader(const Stage& stage);
 
-    /// Light along up to kPacket rays; answers do not depend on which rays are asked together.
-    void answer(std::span<const EyeRay> rays, Answer* answers);
+    /// Light along all rays of a batch. An answer depends on which rays are asked together in the order of its sums only: by
+    /// roundings.
+    void answer(const EyeBatch& eyes, Answers& answers);
 
+    [[nodiscard]] const Stage& stage() const { return *stage_; }
     [[nodiscard]] trace::RayCounts counts() const;
 
 private:
-    /// A ray whose hit is to be shaded.
-    struct Path {
-        Colour weight;
-        int depth = 0;
-        std::size_t lane = 0;     ///< of the eye ray it descends from
-        std::uint32_t event = 0;  ///< number of the hit among those of its eye ray
-    };
-    struct Pending {
-        trace::RayQuery query;
-        Path path;
-    };
-    /// A hit while lamps are summed up.
-    struct Spot {
-        const Surface* surface;
-        Vec3 normal;  ///< on the viewer's side
-        double nv;
-        Colour body;   ///< with what the interface took away
-        Colour light;  ///< so far
-        bool lit;      ///< lamps count
-    };
+    using Paths = std::array<Path, 8>;
 
-    /// Sums up the light of hits into brought_ and puts the rays that go on from them on the list.
-    void shade(std::size_t count, const trace::RayQuery* queries, const trace::Hit* hits,
-               const Path* paths);
-    void follow(std::span<const Pending> rays);
-    [[nodiscard]] Spot approach(const trace::RayQuery& query, const trace::Hit& hit, Path& path,
-                                Colour& brought);
-    void light_directly(const Lamp& lamp, std::size_t count, const trace::RayQuery* queries,
-                        const trace::Hit* hits, const Path* paths, Spot* spots);
-    void light_softly(const Lamp& lamp, const trace::RayQuery& query, const trace::Hit& hit,
-                      const Path& path, Spot& spot);
-    [[nodiscard]] Colour gain(const trace::RayQuery& query, const Arrival& arrival, double nl,
-                              const Spot& spot) const;
-    [[nodiscard]] bool matters(Colour gain, const Path& path) const {
-        // Less than this can not be seen even in sums over a few lamps.
-        return max_norm(gain * path.weight) > 0.125 * stage_->min_weight;
-    }
-    void spawn(const trace::Hit& hit, Vec3 direction, const Path& path, Colour weight,
-               Colour& brought);
-    void dim(std::span<const trace::RayQuery> shadows, const csg::MaterialId* media, Colour* gains);
-    [[nodiscard]] Colour filtered(trace::RayQuery shadow, trace::Hit hit);
+    /// Adds the light of hits to the answers and puts the rays that go on from them on the stacks. spots_.weight is set.
+    void shade(const trace::RayPacket& rays, LaneBits lanes, const Paths& paths);
+    void follow(RayStack& stack);
+    void look_up(LaneBits lanes);
+    void go_on(const Onward& onward, const Paths& paths, std::uint32_t turn);
+    void light_softly(const Lamp& lamp, const trace::RayPacket& rays, int lane, const Path& path);
+    void dim(trace::RayPacket& shadows, int hit);
+    void filter(trace::RayPacket& shadows, int hit);
     [[nodiscard]] const Surface& surface(csg::MaterialId id);
     [[nodiscard]] const Surface& medium(csg::MaterialId id);
 
@@ -132,15 +91,16 @@ private:
     std::vector<std::unique_ptr<const Surface>> surfaces_;  ///< by material, made when first seen
     std::unique_ptr<const Surface> unpainted_;
     Surface air_;
-    // Of the packet in hand, kept from one to the next: they are large.
-    std::array<trace::RayQuery, kPacket> queries_, shadows_;
-    std::array<trace::Hit, kPacket> hits_, shadow_hits_;
-    std::vector<Pending> pending_;  ///< rays of the next wave
-    std::vector<Pending> wave_;
-    std::array<Colour, kPacket> brought_{};  ///< by shade(), for each of its hits
-    std::span<const EyeRay> eyes_;
-    Answer* answers_ = nullptr;
-    std::array<std::uint32_t, kPacket> events_{};  ///< hits shaded so far, by lane
+    // Of the packet in hand.
+    trace::HitPacket hits_, shadow_hits_;
+    Spots spots_;
+    Onward reflected_, refracted_;
+    Gains gains_;
+    trace::RayPacket shadows_;
+    // Of the batch in hand. Images and what is seen through surfaces wait apart: rays of one kind are closer.
+    RayStack images_, views_;
+    const EyeBatch* eyes_ = nullptr;
+    Answers* answers_ = nullptr;
     trace::RayCounts counts_;
 };
 

@@ -113,7 +113,7 @@ TEST_CASE("render: another seed moves the samples, the same one does not") {
     CHECK(a->rgb != b->rgb);
 }
 
-TEST_CASE("render: rays answer the same alone and in packets") {
+TEST_CASE("render: rays answer the same alone and in batches, but for the order of sums") {
     const scene::Scene scene = balls();
     const auto compiled = trace::compile(scene);
     REQUIRE(compiled.has_value());
@@ -122,20 +122,29 @@ TEST_CASE("render: rays answer the same alone and in packets") {
     RayShader together(stage);
     RayShader alone(stage);
     const scene::View view(look.camera, 60, 60);
+    Answers all;
+    Answers one;
     for (int y = 0; y < 60; y += 2) {
-        for (int x = 0; x < 56; x += 8) {
-            std::array<EyeRay, 8> rays;
-            std::array<Answer, 8> answers;
-            for (std::size_t i = 0; i < 8; ++i) {
-                rays[i] = {view.ray(x + static_cast<double>(i), y), 17 + i, 0, 1};
-            }
-            together.answer(rays, answers.data());
-            for (std::size_t i = 0; i < 8; ++i) {
-                Answer single;
-                alone.answer({&rays[i], 1}, &single);
-                REQUIRE(single.light == answers[i].light);
-                REQUIRE(single.signature == answers[i].signature);
-            }
+        EyeBatch batch;
+        batch.count = 59;
+        EyeBatch single;
+        single.count = 1;
+        for (std::size_t i = 0; i < 64; ++i) {
+            trace::RayQuery query;
+            query.ray = view.ray(std::min<double>(static_cast<double>(i), 58), y);
+            batch.rays[i / 8].set(static_cast<int>(i % 8), query);
+            batch.seed[i] = 17 + i;
+            batch.sample[i] = 0;
+        }
+        together.answer(batch, all);
+        for (std::size_t i = 0; i < batch.count; ++i) {
+            for (int lane = 0; lane < 8; ++lane)
+                single.rays[0].set(lane, batch.rays[i / 8].query(static_cast<int>(i % 8)));
+            single.seed[0] = batch.seed[i];
+            single.sample[0] = 0;
+            alone.answer(single, one);
+            REQUIRE(max_norm(one.light[0] - all.light[i]) < 1e-14);
+            REQUIRE(one.signature[0] == all.signature[i]);
         }
     }
 }

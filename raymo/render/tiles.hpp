@@ -47,34 +47,6 @@ private:
     std::atomic_flag reporting_;
 };
 
-/// Gathers rays into packets. Pixels are numbers that the taker understands.
-class Packet {
-public:
-    Packet(RayShader& shader, std::function<void(std::size_t pixel, const Answer&)> take)
-        : shader_(&shader), take_(std::move(take)) {}
-
-    void add(const EyeRay& ray, std::size_t pixel) {
-        rays_[count_] = ray;
-        pixels_[count_] = pixel;
-        if (++count_ == rays_.size()) flush();
-    }
-    /// Must be called after the last ray.
-    void flush() {
-        if (count_ == 0) return;
-        shader_->answer({rays_.data(), count_}, answers_.data());
-        for (std::size_t i = 0; i < count_; ++i) take_(pixels_[i], answers_[i]);
-        count_ = 0;
-    }
-
-private:
-    RayShader* shader_;
-    std::function<void(std::size_t, const Answer&)> take_;
-    std::array<EyeRay, RayShader::kPacket> rays_;
-    std::array<std::size_t, RayShader::kPacket> pixels_{};
-    std::array<Answer, RayShader::kPacket> answers_;
-    std::size_t count_ = 0;
-};
-
 /// Calls f(x, y) for all cells of a tile, by blocks of 4 x 2, the shape of a packet of eight
 /// coherent rays.
 template <class F>
@@ -111,6 +83,85 @@ struct Sitting {
     const Options& options;
     Crew& crew;
     image::Film& film;
+};
+
+/// Gathers rays of one tile into batches. take(pixel, light, signature) gets what they bring, in their order; pixels are
+/// numbers that it understands.
+template <class Take>
+class Sampler {
+public:
+    /// `samples`: rays of each pixel.
+    Sampler(const Sitting& sitting, RayShader& shader, std::uint32_t samples, Take take)
+        : s_(&sitting), shader_(&shader), take_(std::move(take)) {
+        batch_.samples = samples;
+    }
+    /// A ray through the middle of pixel (x, y).
+    void add_middle(int x, int y, std::size_t pixel) {
+        if (shader_->stage().soft) seed(x, y);
+        add(x + 0.5, y + 0.5, 0, pixel);
+    }
+    /// Ray number `k` of a pixel.
+    void add_sample(int x, int y, std::uint32_t k, std::size_t pixel) {
+        const std::uint64_t set = seed(x, y);
+        const Point2 p = sample_point(k, set);
+        if (s_->camera.aperture > 0.0) lens_[batch_.count] = sample_point(k, set + 1);
+        add(x + p.u, y + p.v, k, pixel);
+    }
+    /// Must be called after the last ray.
+    void flush() {
+        if (batch_.count == 0) return;
+        const std::size_t packets = (batch_.count + 7) / 8;
+        for (std::size_t i = 0; i < packets; ++i) {
+            if (i + 1 == packets) fill_up();
+            eye_rays(s_->view, x_[i].at, y_[i].at, batch_.rays[i]);
+        }
+        if (s_->camera.aperture > 0.0 && batch_.samples > 1) open_lens();
+        shader_->answer(batch_, answers_);
+        for (std::size_t i = 0; i < batch_.count; ++i)
+            take_(pixel_[i], answers_.light[i], answers_.signature[i]);
+        batch_.count = 0;
+    }
+
+private:
+    std::uint64_t seed(int x, int y) {
+        return batch_.seed[batch_.count] = pixel_seed(s_->options.seed, x, y);
+    }
+    void add(double x, double y, std::uint32_t sample, std::size_t pixel) {
+        const std::size_t i = batch_.count++;
+        x_[i / 8].at[i % 8] = x;
+        y_[i / 8].at[i % 8] = y;
+        batch_.sample[i] = sample;
+        pixel_[i] = pixel;
+        if (batch_.count == EyeBatch::kMost) flush();
+    }
+    /// The lanes of the last packet that no ray is in get the last ray.
+    void fill_up() {
+        const std::size_t last = batch_.count - 1;
+        for (std::size_t i = batch_.count; i % 8 != 0; ++i) {
+            x_[i / 8].at[i % 8] = x_[last / 8].at[last % 8];
+            y_[i / 8].at[i % 8] = y_[last / 8].at[last % 8];
+        }
+    }
+    void open_lens() {
+        for (std::size_t i = 0; i < batch_.count; ++i) {
+            trace::RayQuery query;
+            query.ray =
+                s_->view.ray(x_[i / 8].at[i % 8], y_[i / 8].at[i % 8], lens_[i].u, lens_[i].v);
+            batch_.rays[i / 8].set(static_cast<int>(i % 8), query);
+        }
+    }
+
+    struct alignas(64) Eight {
+        double at[8];
+    };
+    const Sitting* s_;
+    RayShader* shader_;
+    Take take_;
+    EyeBatch batch_;
+    Answers answers_;
+    std::array<Eight, EyeBatch::kMost / 8> x_, y_;  ///< in the picture
+    std::array<Point2, EyeBatch::kMost> lens_;
+    std::array<std::size_t, EyeBatch::kMost> pixel_;
 };
 
 /// Every pixel once, then edges again; or all pixels with equally many samples. False: cancelled.
