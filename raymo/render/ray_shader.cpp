@@ -26,7 +26,7 @@ constexpr double kUnseen = 0.125;
 Signature signature_of(const HitPacket& hits, int i) {
     std::uint64_t x = mix(hits.leaf[i] + (static_cast<std::uint64_t>(hits.instance[i]) << 32U));
     x = mix(x + hits.face[i] + (static_cast<std::uint64_t>(hits.part[i]) << 20U) +
-            (hits.entering[i] ? 1ULL << 19U : 0U));
+            ((hits.entering >> i & 1U) != 0 ? 1ULL << 19U : 0U));
     const auto scaled = [](double c) { return static_cast<std::int8_t>(c * 127.0); };
     return {static_cast<std::uint32_t>(x) | 1U,
             {scaled(hits.normal[0][i]), scaled(hits.normal[1][i]), scaled(hits.normal[2][i])}};

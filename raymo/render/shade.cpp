@@ -109,9 +109,7 @@ void shade_surroundings_8(const Surroundings& around, const double (&view)[3][8]
     const Colours ambient = everywhere<Lanes>(around.ambient);
     const Colours bottom = everywhere<Lanes>(around.background.bottom);
     const Colours top = everywhere<Lanes>(around.background.top);
-    LaneBits entering = 0;
-    for (int i = 0; i < 8; ++i) entering |= (hits.entering[i] ? 1U : 0U) << i;
-    spots.lit = lanes & (~spots.transparent | entering);
+    spots.lit = lanes & (~spots.transparent | hits.entering);
     reflected.lanes = refracted.lanes = 0;
     for (int first = 0; first < 8; first += kLanes) {
         const SurfacesInLanes surface = surfaces_at(spots, first);
@@ -120,7 +118,8 @@ void shade_surroundings_8(const Surroundings& around, const double (&view)[3][8]
         const Mask clear = mask_at(spots.transparent, first);
         const Colours d = load(view, first);
         const Colours outward = load(hits.normal, first);
-        const Colours n = lane_select(mask_at(entering, first), outward, outward * Lanes(-1.0));
+        const Colours n =
+            lane_select(mask_at(hits.entering, first), outward, outward * Lanes(-1.0));
         const Lanes dn = dot(d, n);
         // Rounding may put a surface seen edge-on on the wrong side.
         const Lanes nv = lane_max(none - dn, Lanes(1e-9));

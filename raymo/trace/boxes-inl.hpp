@@ -38,18 +38,6 @@ HWY_INLINE void clip(Floats lo, Floats hi, Floats o, Floats inverse, Floats& ent
     leave = hn::Min(leave, hn::Max(p, q));
 }
 
-/// Puts a box on the list, which is sorted with the nearest last. There must be room (make_room).
-template <int L>
-HWY_INLINE void put_off(Walker<L>& w, const Unopened& box) {
-    Unopened* list = w.unopened.list();
-    std::size_t i = w.unopened.count++;
-    while (i > 0 && list[i - 1].t < box.t) {
-        list[i] = list[i - 1];
-        --i;
-    }
-    list[i] = box;
-}
-
 /// Which rays of a packet meet child `k` of a node, and where the first of them does.
 struct Met {
     std::uint32_t lanes;
@@ -84,38 +72,37 @@ struct Beam {
     float least[3], most[3];  ///< of the inverse directions
     float from, to;
 };
-HWY_INLINE Beam beam_of(const Context<8>& c, std::uint32_t lanes) {
+HWY_INLINE float least_of(const float* values, std::uint32_t lanes) {
     const F f;
-    Beam beam{};
-    beam.usable = true;
-    const auto extent = [&](const float* values, float& least, float& most) {
-        Floats low = hn::Set(f, std::numeric_limits<float>::infinity());
-        Floats high = hn::Neg(low);
-        for (int v = 0; v < 8 / kFloats; ++v) {
-            const Floats x = hn::Load(f, values + v * kFloats);
-            const auto counts = float_mask(lanes >> (v * kFloats));
-            low = hn::Min(low, hn::IfThenElse(counts, x, low));
-            high = hn::Max(high, hn::IfThenElse(counts, x, high));
-        }
-        least = hn::GetLane(hn::MinOfLanes(f, low));
-        most = hn::GetLane(hn::MaxOfLanes(f, high));
-    };
-    for (int a = 0; a < 3; ++a) {
-        extent(c.inverse[a], beam.least[a], beam.most[a]);
-        beam.forward[a] = beam.least[a] > 0.0F;
-        if (beam.least[a] < 0.0F && beam.most[a] > 0.0F) {
-            beam.usable = false;
-            return beam;
-        }
-        float low;
-        float high;
-        extent(c.fo[a], low, high);
-        beam.nearest[a] = beam.forward[a] ? high : low;
-        beam.furthest[a] = beam.forward[a] ? low : high;
+    Floats least = hn::Set(f, std::numeric_limits<float>::infinity());
+    for (int v = 0; v < 8; v += kFloats) {
+        const Floats x = hn::Load(f, values + v);
+        least = hn::Min(least, hn::IfThenElse(float_mask(lanes >> v), x, least));
     }
-    float none;
-    extent(c.from, beam.from, none);
-    extent(c.to, none, beam.to);
+    return hn::GetLane(hn::MinOfLanes(f, least));
+}
+HWY_INLINE float most_of(const float* values, std::uint32_t lanes) {
+    const F f;
+    Floats most = hn::Set(f, -std::numeric_limits<float>::infinity());
+    for (int v = 0; v < 8; v += kFloats) {
+        const Floats x = hn::Load(f, values + v);
+        most = hn::Max(most, hn::IfThenElse(float_mask(lanes >> v), x, most));
+    }
+    return hn::GetLane(hn::MaxOfLanes(f, most));
+}
+HWY_INLINE Beam beam_of(const Context<8>& c, std::uint32_t lanes) {
+    Beam beam{};
+    for (int a = 0; a < 3; ++a) {
+        beam.least[a] = least_of(c.inverse[a], lanes);
+        beam.most[a] = most_of(c.inverse[a], lanes);
+        if (beam.least[a] < 0.0F && beam.most[a] > 0.0F) return beam;
+        beam.forward[a] = beam.least[a] > 0.0F;
+        beam.nearest[a] = beam.forward[a] ? most_of(c.fo[a], lanes) : least_of(c.fo[a], lanes);
+        beam.furthest[a] = beam.forward[a] ? least_of(c.fo[a], lanes) : most_of(c.fo[a], lanes);
+    }
+    beam.from = least_of(c.from, lanes);
+    beam.to = most_of(c.to, lanes);
+    beam.usable = true;
     return beam;
 }
 /// The children of a node that the beam may meet, one bit each.
@@ -143,23 +130,21 @@ HWY_INLINE std::uint32_t meet_node(const Beam& beam, const BvhNode& node) {
 }
 
 /// A packet of rays against the children of a node, for the walk of a simple solid.
-HWY_INLINE void open_node(Walker<8>& w, const Unopened& box, std::uint32_t lanes,
-                          const Beam& beam) {
+HWY_INLINE void open_node(Walker<8>& w, std::uint32_t ref, std::uint32_t lanes, const Beam& beam) {
     const Context<8>& c = w.contexts[0];
-    const BvhNode& node = c.solid->nodes[box.ref];
+    const BvhNode& node = c.solid->nodes[ref];
     RaysInFloats rays[8 / kFloats];
     for (int v = 0; v < 8 / kFloats; ++v) rays[v] = rays_in_floats(c, v * kFloats);
     ++w.boxes;
-    w.unopened.make_room(BvhNode::kWidth);
+    w.near_boxes.make_room(BvhNode::kWidth);
     std::uint32_t met = beam.usable ? meet_node(beam, node) : 0xffU;
     for (; met != 0; met &= met - 1) {
         const int k = __builtin_ctz(met);
         if (node.lo[0][k] > node.hi[0][k]) break;
-        Met by = meet_box(rays, node, k);
-        by.lanes &= lanes;
-        if (by.lanes == 0) continue;
+        const Met by = meet_box(rays, node, k);
+        if ((by.lanes & lanes) == 0) continue;
         // Rays that do not count may be nearer: that opens the box too early, never too late.
-        put_off(w, {by.near, node.ref[k], 0, node.count[k], static_cast<std::uint8_t>(by.lanes)});
+        w.near_boxes.put({by.near, node.ref[k], node.count[k], by.lanes & lanes});
     }
 }
 
@@ -185,8 +170,8 @@ HWY_INLINE void open_node(Walker<8>& w, const Unopened& box, std::uint32_t lanes
                 t = entry < t ? entry : t;
             }
         }
-        put_off(w,
-                {t, node.ref[k], box.context, node.count[k], static_cast<std::uint8_t>(by.lanes)});
+        w.unopened.put(
+            {t, node.ref[k], box.context, node.count[k], static_cast<std::uint8_t>(by.lanes)});
     }
 }
 
@@ -212,6 +197,6 @@ HWY_INLINE void open_node(Walker<1>& w, const Unopened& box, std::uint32_t) {
     for (; met != 0; met &= met - 1) {
         const int k = __builtin_ctz(met);
         if (node.lo[0][k] > node.hi[0][k]) break;
-        put_off(w, {base_t(c.t0[0], near[k]), node.ref[k], box.context, node.count[k], 1});
+        w.unopened.put({base_t(c.t0[0], near[k]), node.ref[k], box.context, node.count[k], 1});
     }
 }

@@ -154,7 +154,7 @@ void open_instance(Walker<L>& w, std::uint32_t parent, std::uint32_t leaf_index,
         }
     }
     w.unopened.make_room(1);
-    put_off(w, {nearest, 0, index, 0, static_cast<std::uint8_t>(lanes)});
+    w.unopened.put({nearest, 0, index, 0, static_cast<std::uint8_t>(lanes)});
 }
 
 template <int L, class Visit>
@@ -231,7 +231,7 @@ HWY_INLINE void open_leaf(Walker<8>& w, std::uint32_t context, std::uint32_t ind
     const Context<8>& c = w.contexts[context];
     const Leaf& leaf = c.solid->leaves[index];
     const Frame& frame = w.data->frames[leaf.frame];
-    w.leaves += static_cast<std::uint64_t>(__builtin_popcount(lanes));
+    w.leaves += static_cast<std::uint64_t>(lane_count(lanes));
     if (frame.type == kInstanceType) {
         Local<double> locals[8];
         for (int i = 0; i < 8; ++i) {

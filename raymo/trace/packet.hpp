@@ -13,7 +13,12 @@ inline constexpr LaneBits kAllLanes = 0xffU;
 
 [[nodiscard]] constexpr LaneBits first_lanes(std::size_t count) { return (1U << count) - 1U; }
 [[nodiscard]] inline int lowest_lane(LaneBits lanes) { return __builtin_ctz(lanes); }
-[[nodiscard]] inline int lane_count(LaneBits lanes) { return __builtin_popcount(lanes); }
+[[nodiscard]] constexpr int lane_count(LaneBits lanes) {
+    // Not every machine that this is compiled for counts bits in one instruction.
+    lanes = (lanes & 0x55U) + (lanes >> 1U & 0x55U);
+    lanes = (lanes & 0x33U) + (lanes >> 2U & 0x33U);
+    return static_cast<int>((lanes & 0xfU) + (lanes >> 4U));
+}
 
 /// Questions, as in RayQuery.
 struct alignas(64) RayPacket {
@@ -63,9 +68,8 @@ struct alignas(64) HitPacket {
     double normal[3][8];
     std::uint32_t part[8];
     csg::MaterialId material[8], medium_before[8], medium_after[8];
-    std::uint32_t leaf[8], instance[8];
-    std::uint16_t face[8];
-    bool entering[8];
+    std::uint32_t leaf[8], instance[8], face[8];
+    LaneBits entering = 0;
 
     void set(int lane, const Hit& hit) {
         t[lane] = hit.t;
@@ -82,7 +86,7 @@ struct alignas(64) HitPacket {
         leaf[lane] = hit.surface.leaf;
         instance[lane] = hit.surface.instance;
         face[lane] = hit.surface.face;
-        entering[lane] = hit.entering;
+        entering = (entering & ~(1U << lane)) | (hit.entering ? 1U : 0U) << lane;
     }
     [[nodiscard]] Hit hit(int lane) const {
         Hit out;
@@ -91,12 +95,12 @@ struct alignas(64) HitPacket {
         out.point = {point[0][lane], point[1][lane], point[2][lane]};
         out.point_error = point_error[lane];
         out.normal = {normal[0][lane], normal[1][lane], normal[2][lane]};
-        out.entering = entering[lane];
+        out.entering = (entering >> lane & 1U) != 0;
         out.part = part[lane];
         out.material = material[lane];
         out.medium_before = medium_before[lane];
         out.medium_after = medium_after[lane];
-        out.surface = {leaf[lane], instance[lane], face[lane]};
+        out.surface = {leaf[lane], instance[lane], static_cast<std::uint16_t>(face[lane])};
         return out;
     }
 };

@@ -63,8 +63,8 @@ struct Tracer::State {
         w.counters.reset();
         w.boxes = w.leaves = 0;
     }
-    /// Traces a packet in `eight`. Returns the rays that must be traced alone, one bit each. Where the solid is simple, what
-    /// it met is in eight.nearest, and the numbers of the surfaces in `hits` (unless that is null).
+    /// Traces a packet in `eight`. Returns the rays that must be traced alone, one bit each. Where the solid is simple, which
+    /// rays met anything is in eight.nearest, and what they met in `hits` (unless that is null).
     LaneBits trace_packet(const RayPacket& packet, LaneBits lanes, Mode mode, HitPacket* hits) {
         RAYMO_ASSERT(lanes != 0 && lanes <= kAllLanes);
         const CompiledSolid& base = data->solids.front();
@@ -93,8 +93,6 @@ struct Tracer::State {
         counts.leaves += eight.leaves;
         return deferred;
     }
-    /// All of a hit but the numbers of its surface, for ray `i` of a packet that walk_simple has answered.
-    void fill(HitPacket& hits, int i) const;
     /// Traces one ray in `one`; the ray as traced (perhaps moved aside) is returned.
     BaseRay trace_one(const RayQuery& query, Mode mode) {
         const BaseRay straight = base_ray(data->solids.front(), query);
@@ -167,40 +165,6 @@ Hit Tracer::State::hit_of(const Walker<L>& w, int i, const BaseRay& ray,
     return hit;
 }
 
-void Tracer::State::fill(HitPacket& hits, int i) const {
-    const Nearest& n = eight.nearest;
-    const CompiledSolid& base = data->solids.front();
-    const auto index = static_cast<std::uint32_t>(n.leaf[i]);
-    const Leaf& leaf = base.leaves[index];
-    const Look& look = data->looks[leaf.look];
-    const bool entering = n.leaf[i] == static_cast<double>(index);
-    csg::MaterialId material = look.material;
-    if (look.borrows) {
-        // The ray is in all positive leaves of the product here: the leftmost that has a material lends it.
-        std::uint32_t first = index;
-        while (base.leaves[first].unit == 0) --first;
-        std::uint32_t order = kNone;
-        for (std::uint32_t k = first; k < first + base.leaves[first].unit; ++k) {
-            const Look& other = data->looks[base.leaves[k].look];
-            if (other.cuts || other.material == csg::kNoMaterial || base.leaves[k].order >= order)
-                continue;
-            order = base.leaves[k].order;
-            material = other.material;
-        }
-    }
-    hits.entering[i] = entering;
-    hits.part[i] = leaf.parent < base.parts ? leaf.parent : base.groups[leaf.parent].parent;
-    hits.material[i] = material;
-    hits.medium_before[i] =
-        n.inside[i] < 0.0
-            ? Hit::kAir
-            : data->looks[base.leaves[static_cast<std::uint32_t>(n.inside[i])].look].material;
-    hits.medium_after[i] = entering ? material : Hit::kAir;
-    hits.leaf[i] = base.first_leaf + index;
-    hits.instance[i] = 0;
-    hits.face[i] = static_cast<std::uint16_t>(n.face[i]);
-}
-
 Tracer::Tracer(const CompiledScene& scene) : state_(std::make_unique<State>()) {
     state_->scene = &scene;
     state_->data = &scene.data();
@@ -230,9 +194,7 @@ LaneBits Tracer::first_hits(const RayPacket& rays, LaneBits lanes, HitPacket& hi
     s.counts.primary += static_cast<std::uint64_t>(lane_count(lanes));
     const LaneBits deferred = s.trace_packet(rays, lanes, Mode::first, &hits);
     LaneBits found = s.simple ? s.eight.nearest.found & ~deferred : 0;
-    if (s.simple) {
-        for (LaneBits rest = found; rest != 0; rest &= rest - 1) s.fill(hits, lowest_lane(rest));
-    } else {
+    if (!s.simple) {
         for (LaneBits rest = lanes & ~deferred; rest != 0; rest &= rest - 1) {
             const int i = lowest_lane(rest);
             const Lane& lane = s.eight.lanes[i];

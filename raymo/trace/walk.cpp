@@ -47,9 +47,9 @@ using solids::LocalRay;
 template <int L>
 HWY_INLINE void walk_all(Walker<L>& w) {
     w.unopened.count = 0;
-    put_off(w, {-kInfinity, 0, 0, 0, static_cast<std::uint8_t>(w.active)});
+    w.unopened.put({-kInfinity, 0, 0, 0, static_cast<std::uint8_t>(w.active)});
     while (w.unopened.count > 0) {
-        const Unopened box = w.unopened.list()[w.unopened.count - 1];
+        const Unopened box = w.unopened.last();
         for (std::uint32_t rest = w.active; rest != 0; rest &= rest - 1) {
             const int i = __builtin_ctz(rest);
             Lane& lane = w.lanes[i];

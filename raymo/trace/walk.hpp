@@ -11,7 +11,7 @@ namespace raymo::trace {
 void walk(Walker<1>& walker);
 void walk(Walker<8>& walker);
 /// The nearest surfaces of a simple solid for the active rays: answers, or defers rays, in walker.nearest. `hits`: where to
-/// put the numbers of the surfaces that are met; may be null.
+/// put what is met; may be null.
 void walk_simple(Walker<8>& walker, const RayPacket& rays, HitPacket* hits);
 
 }  // namespace raymo::trace

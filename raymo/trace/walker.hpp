@@ -201,15 +201,42 @@ struct Unopened {
     std::uint8_t lanes;  ///< bit i: ray i meets the box
 };
 
+/// The same in the walk of a simple solid. Two words, so that what has just been put on a list can be read from the
+/// processor's store buffer.
+struct NearBox {
+    double t;
+    std::uint64_t packed;
+
+    NearBox() = default;
+    NearBox(double at, std::uint32_t ref, std::uint32_t count, std::uint32_t lanes)
+        : t(at),
+          packed(static_cast<std::uint64_t>(ref) << 16 | static_cast<std::uint64_t>(count) << 8 |
+                 lanes) {}
+    [[nodiscard]] std::uint32_t ref() const { return static_cast<std::uint32_t>(packed >> 16); }
+    [[nodiscard]] std::uint32_t count() const { return packed >> 8 & 0xffU; }
+    [[nodiscard]] std::uint32_t lanes() const { return packed & 0xffU; }
+};
+
 /// Boxes to be opened, sorted with the nearest last.
-struct UnopenedList {
-    std::vector<Unopened> room = std::vector<Unopened>(64);
+template <class Box>
+struct BoxList {
+    std::vector<Box> room = std::vector<Box>(64);
     std::size_t count = 0;
 
-    [[nodiscard]] Unopened* list() { return room.data(); }
     void make_room(std::size_t more) {
         if (count + more > room.size()) room.resize(2 * room.size() + more);
     }
+    /// There must be room.
+    void put(const Box& box) {
+        Box* list = room.data();
+        std::size_t i = count++;
+        while (i > 0 && list[i - 1].t < box.t) {
+            list[i] = list[i - 1];
+            --i;
+        }
+        list[i] = box;
+    }
+    [[nodiscard]] const Box& last() const { return room[count - 1]; }
 };
 
 /// The nearest surface of each ray of a packet, as nearest-inl.hpp finds it; what the names mean is told there.
@@ -231,9 +258,10 @@ struct Walker {
     Lane lanes[L];
     std::vector<Context<L>> contexts;
     Counters<L> counters;
-    UnopenedList unopened;
+    BoxList<Unopened> unopened;
     std::uint64_t boxes = 0, leaves = 0;
-    Nearest nearest;  ///< packets only
+    Nearest nearest;              ///< packets only
+    BoxList<NearBox> near_boxes;  ///< of the walk of a simple solid
 
     /// Applies all clusters of a ray that end before `horizon`, until it is done.
     void advance(int lane, double horizon);
