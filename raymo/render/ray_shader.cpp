@@ -50,7 +50,8 @@ Stage::Stage(const trace::CompiledScene& compiled, const Look& look, const Optio
       min_weight(std::max(options.min_weight, kLeastWeight)),
       soft(std::any_of(lamps.begin(), lamps.end(), [](const Lamp& l) { return l.is_area(); })) {}
 
-RayShader::RayShader(const Stage& stage) : stage_(&stage), tracer_(*stage.scene) {}
+RayShader::RayShader(const Stage& stage)
+    : stage_(&stage), tracer_(*stage.scene), surfaces_(*stage.scene) {}
 
 trace::RayCounts RayShader::counts() const {
     trace::RayCounts counts = tracer_.counts();
@@ -58,20 +59,6 @@ trace::RayCounts RayShader::counts() const {
     counts.shadow = counts_.shadow;
     counts.secondary = counts_.secondary;
     return counts;
-}
-
-const Surface& RayShader::surface(csg::MaterialId id) {
-    std::unique_ptr<const Surface>* slot = &unpainted_;
-    if (id != csg::kNoMaterial) {
-        if (id >= surfaces_.size()) surfaces_.resize(static_cast<std::size_t>(id) + 1);
-        slot = &surfaces_[id];
-    }
-    if (!*slot) *slot = std::make_unique<const Surface>(stage_->scene->material(id));
-    return **slot;
-}
-
-const Surface& RayShader::medium(csg::MaterialId id) {
-    return id == Hit::kAir ? air_ : surface(id);
 }
 
 void RayShader::answer(const EyeBatch& eyes, Answers& answers) {
@@ -107,9 +94,8 @@ void RayShader::answer(const EyeBatch& eyes, Answers& answers) {
 void RayShader::follow(RayStack& stack) {
     RayPacket rays;
     Paths paths;
-    const LaneBits lanes = trace::first_lanes(stack.pop(rays, spots_.weight, paths));
+    const LaneBits lanes = stack.pop(rays, spots_.weight, paths);
     counts_.secondary += static_cast<std::uint64_t>(trace::lane_count(lanes));
-    rays.fill_up(lanes);
     const LaneBits found = tracer_.first_hits(rays, lanes, hits_);
     if (found != lanes) {
         shade_background(stage_->around, rays.d, spots_.light);
@@ -122,45 +108,61 @@ void RayShader::follow(RayStack& stack) {
     if (found != 0) shade(rays, found, paths);
 }
 
-/// The surfaces that were met, and what the way there has absorbed.
+/// What the way to the hits has absorbed.
+void RayShader::absorb(LaneBits lanes) {
+    for (LaneBits rest = lanes; rest != 0; rest &= rest - 1) {
+        const int i = lowest_lane(rest);
+        const Surface& before = surfaces_[hits_.medium_before[i]];
+        if (!before.absorbs) continue;
+        set_lane(spots_.weight, i, lane_of(spots_.weight, i) * transmittance(before, hits_.t[i]));
+    }
+}
+
+/// The surfaces that were met.
 void RayShader::look_up(LaneBits lanes) {
     const int some = lowest_lane(lanes);
     spots_.same = true;
     spots_.tinted = spots_.transparent = spots_.mirrors = spots_.slow = 0;
     const bool clear = stage_->scene->has_transparency();
-    for (LaneBits rest = lanes; rest != 0; rest &= rest - 1) {
+    std::fill_n(spots_.index, 8, 1.0);
+    for (LaneBits rest = lanes; rest != 0;) {
+        // All that met one material between the same media.
         const int i = lowest_lane(rest);
-        const LaneBits bit = 1U << i;
-        const Surface* material = &surface(hits_.material[i]);
-        spots_.index[i] = 1.0;
-        if (clear) {
-            const Surface& before = medium(hits_.medium_before[i]);
-            if (before.absorbs) {
-                set_lane(spots_.weight, i,
-                         lane_of(spots_.weight, i) * transmittance(before, hits_.t[i]));
-            }
-            if (material->transparent) {
-                const Surface& after = medium(hits_.medium_after[i]);
-                // Where something opaque starts right behind a transparent surface, that is what is
-                // seen.
-                if (hits_.medium_after[i] != Hit::kAir && !after.transparent) {
-                    material = &after;
-                } else {
-                    spots_.index[i] = after.index / before.index;
-                    spots_.transparent |= bit;
+        LaneBits alike = 0;
+        for (int k = i; k < 8; ++k) {
+            const bool is = hits_.material[k] == hits_.material[i] &&
+                            hits_.medium_before[k] == hits_.medium_before[i] &&
+                            hits_.medium_after[k] == hits_.medium_after[i];
+            alike |= (is ? 1U : 0U) << k;
+        }
+        alike &= rest;
+        rest &= ~alike;
+        const Surface* material = &surfaces_[hits_.material[i]];
+        if (clear && material->transparent) {
+            const Surface& after = surfaces_[hits_.medium_after[i]];
+            // Where something opaque starts right behind a transparent surface, that is what is
+            // seen.
+            if (hits_.medium_after[i] != Hit::kAir && !after.transparent) {
+                material = &after;
+            } else {
+                const double index = after.index / surfaces_[hits_.medium_before[i]].index;
+                for (int k = i; k < 8; ++k) {
+                    if ((alike >> k & 1U) != 0) spots_.index[k] = index;
                 }
+                spots_.transparent |= alike;
             }
         }
-        spots_.surface[i] = material;
+        for (int k = i; k < 8; ++k) {
+            if ((alike >> k & 1U) != 0) spots_.surface[k] = material;
+        }
         spots_.same = spots_.same && material == spots_.surface[some];
-        if (material->tinted) spots_.tinted |= bit;
-        if (!material->transparent && !material->mirror.none()) spots_.mirrors |= bit;
-        if (material->facets.kind != scene::Facets::trowbridge_reitz) spots_.slow |= bit;
+        if (material->tinted) spots_.tinted |= alike;
+        if (!material->transparent && !material->mirror.none()) spots_.mirrors |= alike;
+        if (material->facets.kind != scene::Facets::trowbridge_reitz) spots_.slow |= alike;
     }
-    for (LaneBits rest = ~lanes & trace::kAllLanes; rest != 0; rest &= rest - 1) {
+    for (LaneBits rest = ~lanes & trace::kAllLanes; rest != 0; rest &= rest - 1)
         spots_.surface[lowest_lane(rest)] = spots_.surface[some];
-        spots_.index[lowest_lane(rest)] = 1.0;
-    }
+    if (clear) absorb(lanes);
 }
 
 void RayShader::shade(const RayPacket& rays, LaneBits lanes, const Paths& paths) {
@@ -194,17 +196,18 @@ void RayShader::shade(const RayPacket& rays, LaneBits lanes, const Paths& paths)
 
 /// Lets rays go on, or puts ambient light in the place of what they would bring. `turn`: 1 where they are refracted.
 void RayShader::go_on(const Onward& onward, const Paths& paths, std::uint32_t turn) {
-    RayStack& stack = turn == 0 ? images_ : views_;
-    for (LaneBits rest = onward.lanes; rest != 0; rest &= rest - 1) {
+    if (onward.lanes == 0) return;
+    LaneBits going = worth_tracing(onward, stage_->min_weight);
+    for (LaneBits rest = going; rest != 0; rest &= rest - 1) {
         const int i = lowest_lane(rest);
-        const Path& path = paths[static_cast<std::size_t>(i)];
-        const Colour weight = lane_of(onward.weight, i);
-        if (path.depth >= stage_->max_depth || max_norm(weight) < stage_->min_weight) {
-            answers_->light[path.owner] += weight * stage_->around.ambient;
-        } else {
-            stack.push(hits_, onward, i, {path.owner, 2 * path.name + turn, path.depth + 1});
-        }
+        if (paths[static_cast<std::size_t>(i)].depth >= stage_->max_depth) going &= ~(1U << i);
     }
+    for (LaneBits rest = onward.lanes & ~going; rest != 0; rest &= rest - 1) {
+        const int i = lowest_lane(rest);
+        answers_->light[paths[static_cast<std::size_t>(i)].owner] +=
+            lane_of(onward.weight, i) * stage_->around.ambient;
+    }
+    if (going != 0) (turn == 0 ? images_ : views_).push(hits_, onward, going, paths, turn);
 }
 
 /// The lamp's light by several samples of its area; the fewer, the less the hit counts in the picture.
@@ -251,47 +254,57 @@ void RayShader::dim(RayPacket& shadows, int hit) {
 /// The same with transparent parts on the way to a lamp. Light goes straight on through them, as bending would leave the
 /// lamp aside [Whitted80].
 void RayShader::filter(RayPacket& shadows, int hit) {
+    const HitPacket& met = shadow_hits_;
+    alignas(64) double left[8];
+    alignas(64) double transmission[8];
+    alignas(64) double ratio[8];
     std::array<const Surface*, 8> around;
-    std::array<Colour, 8> left;
+    std::fill_n(left, 8, 1.0);
     for (LaneBits rest = gains_.lanes; rest != 0; rest &= rest - 1) {
         const auto i = static_cast<std::size_t>(lowest_lane(rest));
-        around[i] = &medium(hits_.medium_before[hit < 0 ? i : static_cast<std::size_t>(hit)]);
-        left[i] = {1, 1, 1};
+        around[i] = &surfaces_[hits_.medium_before[hit < 0 ? i : static_cast<std::size_t>(hit)]];
     }
-    const HitPacket& met = shadow_hits_;
+    const auto absorb = [&](int i, double length) {
+        const Surface& medium = *around[static_cast<std::size_t>(i)];
+        if (!medium.absorbs) return;
+        set_lane(gains_.light, i, lane_of(gains_.light, i) * transmittance(medium, length));
+    };
     for (LaneBits going = gains_.lanes;;) {
         const LaneBits found = tracer_.first_hits(shadows, going, shadow_hits_);
+        for (LaneBits rest = going & ~found; rest != 0; rest &= rest - 1) {
+            const int i = lowest_lane(rest);
+            absorb(i, shadows.t_max[i]);
+        }
+        going &= found;
         for (LaneBits rest = going; rest != 0; rest &= rest - 1) {
             const int i = lowest_lane(rest);
             const auto k = static_cast<std::size_t>(i);
-            if ((found >> i & 1U) == 0) {
-                if (around[k]->absorbs)
-                    left[k] = left[k] * transmittance(*around[k], shadows.t_max[i]);
-                set_lane(gains_.light, i, lane_of(gains_.light, i) * left[k]);
-                continue;
-            }
-            const Surface& before = medium(met.medium_before[i]);
-            if (before.absorbs) left[k] = left[k] * transmittance(before, met.t[i]);
-            const Surface& material = surface(met.material[i]);
-            if (material.transparent) {
-                around[k] = &medium(met.medium_after[i]);
-                const double ratio = around[k]->index / before.index;
-                const double cosine = std::fabs(dot(lane_of(met.normal, i), lane_of(shadows.d, i)));
-                left[k] *=
-                    material.transmission * (1.0 - fresnel(cosine, std::max(ratio, 1.0 / ratio)));
-            }
-            if (!material.transparent || max_norm(left[k]) < kDark) {
+            const Surface& material = surfaces_[met.material[i]];
+            if (!material.transparent) {
                 gains_.lanes &= ~(1U << i);
                 continue;
             }
-            for (int a = 0; a < 3; ++a) shadows.o[a][i] = met.point[a][i];
-            shadows.start_error[i] = met.point_error[i];
-            shadows.t_max[i] -= met.t[i];
+            around[k] = &surfaces_[met.medium_before[i]];
+            absorb(i, met.t[i]);
+            const double index = around[k]->index;
+            around[k] = &surfaces_[met.medium_after[i]];
+            ratio[i] = std::max(around[k]->index, index) / std::min(around[k]->index, index);
+            transmission[i] = material.transmission;
         }
-        going &= found & gains_.lanes;
-        if (going == 0) return;
+        going &= gains_.lanes;
+        if (going != 0) shade_passage(met, shadows.d, transmission, ratio, left);
+        for (LaneBits rest = going; rest != 0; rest &= rest - 1) {
+            const int i = lowest_lane(rest);
+            if (left[i] < kDark) gains_.lanes &= ~(1U << i);
+        }
+        going &= gains_.lanes;
+        if (going == 0) break;
+        shadows.go_on_from(met, going);
         counts_.shadow += static_cast<std::uint64_t>(trace::lane_count(going));
-        if (going != trace::kAllLanes) shadows.fill_up(going);
+    }
+    for (LaneBits rest = gains_.lanes; rest != 0; rest &= rest - 1) {
+        const int i = lowest_lane(rest);
+        set_lane(gains_.light, i, lane_of(gains_.light, i) * left[i]);
     }
 }
 

@@ -19,6 +19,7 @@
 #include "raymo/render/ray_stack.hpp"
 #include "raymo/render/render.hpp"
 #include "raymo/render/shade.hpp"
+#include "raymo/render/surface_table.hpp"
 
 namespace raymo::render {
 
@@ -79,18 +80,15 @@ private:
     void shade(const trace::RayPacket& rays, LaneBits lanes, const Paths& paths);
     void follow(RayStack& stack);
     void look_up(LaneBits lanes);
+    void absorb(LaneBits lanes);
     void go_on(const Onward& onward, const Paths& paths, std::uint32_t turn);
     void light_softly(const Lamp& lamp, const trace::RayPacket& rays, int lane, const Path& path);
     void dim(trace::RayPacket& shadows, int hit);
     void filter(trace::RayPacket& shadows, int hit);
-    [[nodiscard]] const Surface& surface(csg::MaterialId id);
-    [[nodiscard]] const Surface& medium(csg::MaterialId id);
 
     const Stage* stage_;
     trace::Tracer tracer_;
-    std::vector<std::unique_ptr<const Surface>> surfaces_;  ///< by material, made when first seen
-    std::unique_ptr<const Surface> unpainted_;
-    Surface air_;
+    SurfaceTable surfaces_;
     // Of the packet in hand.
     trace::HitPacket hits_, shadow_hits_;
     Spots spots_;

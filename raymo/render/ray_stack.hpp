@@ -24,45 +24,57 @@ public:
     [[nodiscard]] std::size_t size() const { return paths_.size(); }
     [[nodiscard]] bool empty() const { return paths_.empty(); }
 
-    void push(const trace::HitPacket& hits, const Onward& onward, int lane, const Path& path) {
-        Ray& ray = rays_.emplace_back();
-        for (std::size_t a = 0; a < 3; ++a) {
-            ray.o[a] = hits.point[a][lane];
-            ray.d[a] = onward.d[a][lane];
-            ray.weight[a] = onward.weight[a][lane];
+    /// Puts the rays of `onward` that `lanes` names on the stack; `paths` are those of the hits.
+    void push(const trace::HitPacket& hits, const Onward& onward, LaneBits lanes,
+              const std::array<Path, 8>& paths, std::uint32_t turn) {
+        const std::size_t first = size();
+        for (LaneBits rest = lanes; rest != 0; rest &= rest - 1) {
+            const Path& path = paths[static_cast<std::size_t>(trace::lowest_lane(rest))];
+            paths_.push_back({path.owner, 2 * path.name + turn, path.depth + 1});
         }
-        ray.start_error = hits.point_error[lane];
-        paths_.push_back(path);
+        if (first + 8 > columns_[0].size()) {
+            for (auto& column : columns_) column.resize(2 * first + 64);
+        }
+        std::size_t c = 0;
+        const auto pack = [&](const double(&values)[8]) {
+            double* out = columns_[c++].data() + first;
+            if (lanes == trace::kAllLanes) {
+                std::copy_n(values, 8, out);
+            } else {
+                for (LaneBits rest = lanes; rest != 0; rest &= rest - 1)
+                    *out++ = values[trace::lowest_lane(rest)];
+            }
+        };
+        for (const auto& values : hits.point) pack(values);
+        for (const auto& values : onward.d) pack(values);
+        for (const auto& values : onward.weight) pack(values);
+        pack(hits.point_error);
     }
-    /// Takes up to eight rays off the stack; returns how many.
-    std::size_t pop(trace::RayPacket& rays, double (&weight)[3][8], std::array<Path, 8>& paths) {
+    /// Takes up to eight rays off the stack, and returns their lanes. The lanes beyond them are as good as any.
+    LaneBits pop(trace::RayPacket& rays, double (&weight)[3][8], std::array<Path, 8>& paths) {
         const std::size_t count = std::min<std::size_t>(size(), 8);
         const std::size_t first = size() - count;
-        for (std::size_t i = 0; i < count; ++i) {
-            const Ray& ray = rays_[first + i];
-            for (std::size_t a = 0; a < 3; ++a) {
-                rays.o[a][i] = ray.o[a];
-                rays.d[a][i] = ray.d[a];
-                weight[a][i] = ray.weight[a];
-            }
-            rays.start_error[i] = ray.start_error;
-            rays.t_max[i] = std::numeric_limits<double>::infinity();
-            paths[i] = paths_[first + i];
+        const auto column = [&](std::size_t c, double(&out)[8]) {
+            std::copy_n(columns_[c].data() + first, 8, out);
+        };
+        for (std::size_t a = 0; a < 3; ++a) {
+            column(a, rays.o[a]);
+            column(3 + a, rays.d[a]);
+            column(6 + a, weight[a]);
         }
+        column(9, rays.start_error);
+        std::fill_n(rays.t_max, 8, std::numeric_limits<double>::infinity());
         rays.on_surface = trace::kAllLanes;
-        rays_.resize(first);
+        std::copy_n(paths_.data() + first, count, paths.data());
         paths_.resize(first);
-        return count;
+        const LaneBits lanes = trace::first_lanes(count);
+        rays.fill_up(lanes);
+        return lanes;
     }
 
 private:
-    struct Ray {
-        double o[3];
-        double d[3];
-        double weight[3];
-        double start_error;
-    };
-    std::vector<Ray> rays_;
+    static constexpr std::size_t kColumns = 10;  ///< place, direction, weight, error of the place
+    std::array<std::vector<double>, kColumns> columns_;
     std::vector<Path> paths_;
 };
 

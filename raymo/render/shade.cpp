@@ -184,6 +184,23 @@ void shade_surroundings_8(const Surroundings& around, const double (&view)[3][8]
     }
 }
 
+LaneBits worth_tracing_8(const Onward& onward, double least) {
+    LaneBits worth = 0;
+    for (int first = 0; first < 8; first += kLanes)
+        worth |= bits(largest(load(onward.weight, first)) >= Lanes(least)) << first;
+    return worth & onward.lanes;
+}
+
+void shade_passage_8(const trace::HitPacket& hits, const double (&view)[3][8],
+                     const double (&transmission)[8], const double (&ratio)[8], double (&left)[8]) {
+    for (int first = 0; first < 8; first += kLanes) {
+        const Lanes cosine = lane_abs(dot(load(hits.normal, first), load(view, first)));
+        const Lanes passed =
+            load(transmission + first) * (Lanes(1.0) - fresnel_of(cosine, load(ratio + first)));
+        store(load(left + first) * passed, left + first);
+    }
+}
+
 /// A lamp's light on some spots.
 struct LitInLanes {
     Colours light;
@@ -296,6 +313,8 @@ namespace raymo::render {
 HWY_EXPORT(eye_rays_8);
 HWY_EXPORT(shade_background_8);
 HWY_EXPORT(shade_surroundings_8);
+HWY_EXPORT(worth_tracing_8);
+HWY_EXPORT(shade_passage_8);
 HWY_EXPORT(shade_by_lamp_8);
 HWY_EXPORT(shade_by_lamp_places_8);
 
@@ -312,6 +331,13 @@ void shade_surroundings(const Surroundings& around, const double (&view)[3][8],
                         Onward& reflected, Onward& refracted) {
     HWY_DYNAMIC_DISPATCH(shade_surroundings_8)
     (around, view, hits, lanes, spots, reflected, refracted);
+}
+LaneBits worth_tracing(const Onward& onward, double least) {
+    return HWY_DYNAMIC_DISPATCH(worth_tracing_8)(onward, least);
+}
+void shade_passage(const trace::HitPacket& hits, const double (&view)[3][8],
+                   const double (&transmission)[8], const double (&ratio)[8], double (&left)[8]) {
+    HWY_DYNAMIC_DISPATCH(shade_passage_8)(hits, view, transmission, ratio, left);
 }
 void shade_by_lamp(const Lamp& lamp, const double (&view)[3][8], const trace::HitPacket& hits,
                    LaneBits lanes, const Spots& spots, double least, Gains& gains,

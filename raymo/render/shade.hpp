@@ -58,6 +58,14 @@ void shade_surroundings(const Surroundings& around, const double (&view)[3][8],
                         const trace::HitPacket& hits, LaneBits lanes, Spots& spots,
                         Onward& reflected, Onward& refracted);
 
+/// Which of the rays are worth tracing, of those in onward.lanes: their weight is at least `least`.
+[[nodiscard]] LaneBits worth_tracing(const Onward& onward, double least);
+
+/// What transparent surfaces that are met at `hits` leave of light that goes straight on along `view`: multiplies `left` by
+/// transmission * (1 - fresnel(the cosine, ratio)) for all lanes. `ratio` >= 1.
+void shade_passage(const trace::HitPacket& hits, const double (&view)[3][8],
+                   const double (&transmission)[8], const double (&ratio)[8], double (&left)[8]);
+
 /// What hits get from a lamp that nothing hides.
 struct alignas(64) Gains {
     double light[3][8];

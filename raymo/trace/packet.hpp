@@ -20,47 +20,6 @@ inline constexpr LaneBits kAllLanes = 0xffU;
     return static_cast<int>((lanes & 0xfU) + (lanes >> 4U));
 }
 
-/// Questions, as in RayQuery.
-struct alignas(64) RayPacket {
-    static constexpr int kSize = 8;
-    double o[3][kSize];
-    double d[3][kSize];
-    double t_max[kSize];
-    double start_error[kSize];
-    LaneBits on_surface = 0;
-
-    void set(int lane, const RayQuery& query) {
-        for (int a = 0; a < 3; ++a) {
-            o[a][lane] = query.ray.origin[a];
-            d[a][lane] = query.ray.direction[a];
-        }
-        t_max[lane] = query.t_max;
-        start_error[lane] = query.start_error;
-        on_surface = (on_surface & ~(1U << lane)) | (query.on_surface ? 1U : 0U) << lane;
-    }
-    [[nodiscard]] RayQuery query(int lane) const {
-        RayQuery q;
-        q.ray = {{o[0][lane], o[1][lane], o[2][lane]}, {d[0][lane], d[1][lane], d[2][lane]}};
-        q.t_max = t_max[lane];
-        q.start_error = start_error[lane];
-        q.on_surface = (on_surface >> lane & 1U) != 0;
-        return q;
-    }
-    /// Gives the lanes beside `lanes` (at least one) a copy of one of those, so that they cost nothing.
-    void fill_up(LaneBits lanes) {
-        const int from = lowest_lane(lanes);
-        for (LaneBits rest = ~lanes & kAllLanes; rest != 0; rest &= rest - 1) {
-            const int to = lowest_lane(rest);
-            for (int a = 0; a < 3; ++a) {
-                o[a][to] = o[a][from];
-                d[a][to] = d[a][from];
-            }
-            t_max[to] = t_max[from];
-            start_error[to] = start_error[from];
-        }
-    }
-};
-
 /// Answers, as in Hit.
 struct alignas(64) HitPacket {
     double t[8], error[8];
@@ -102,6 +61,58 @@ struct alignas(64) HitPacket {
         out.medium_after = medium_after[lane];
         out.surface = {leaf[lane], instance[lane], static_cast<std::uint16_t>(face[lane])};
         return out;
+    }
+};
+
+/// Questions, as in RayQuery.
+struct alignas(64) RayPacket {
+    static constexpr int kSize = 8;
+    double o[3][kSize];
+    double d[3][kSize];
+    double t_max[kSize];
+    double start_error[kSize];
+    LaneBits on_surface = 0;
+
+    void set(int lane, const RayQuery& query) {
+        for (int a = 0; a < 3; ++a) {
+            o[a][lane] = query.ray.origin[a];
+            d[a][lane] = query.ray.direction[a];
+        }
+        t_max[lane] = query.t_max;
+        start_error[lane] = query.start_error;
+        on_surface = (on_surface & ~(1U << lane)) | (query.on_surface ? 1U : 0U) << lane;
+    }
+    [[nodiscard]] RayQuery query(int lane) const {
+        RayQuery q;
+        q.ray = {{o[0][lane], o[1][lane], o[2][lane]}, {d[0][lane], d[1][lane], d[2][lane]}};
+        q.t_max = t_max[lane];
+        q.start_error = start_error[lane];
+        q.on_surface = (on_surface >> lane & 1U) != 0;
+        return q;
+    }
+    /// Gives the lanes beside `lanes` (at least one) a copy of one of those, so that they cost nothing.
+    void fill_up(LaneBits lanes) {
+        const int from = lowest_lane(lanes);
+        for (LaneBits rest = ~lanes & kAllLanes; rest != 0; rest &= rest - 1) {
+            const int to = lowest_lane(rest);
+            for (int a = 0; a < 3; ++a) {
+                o[a][to] = o[a][from];
+                d[a][to] = d[a][from];
+            }
+            t_max[to] = t_max[from];
+            start_error[to] = start_error[from];
+        }
+    }
+    /// Lets the rays in `lanes` (at least one) start anew where they met a surface; the others are filled up.
+    void go_on_from(const HitPacket& hits, LaneBits lanes) {
+        for (LaneBits rest = lanes; rest != 0; rest &= rest - 1) {
+            const int i = lowest_lane(rest);
+            for (int a = 0; a < 3; ++a) o[a][i] = hits.point[a][i];
+            start_error[i] = hits.point_error[i];
+            t_max[i] -= hits.t[i];
+        }
+        on_surface |= lanes;
+        if (lanes != kAllLanes) fill_up(lanes);
     }
 };
 

@@ -6,13 +6,14 @@ struct Triple {
     R x, y, z;
 };
 
-/// a / |a|, scaled first so that it neither overflows nor underflows.
+/// a / |a|, scaled first so that squares neither overflow nor underflow.
 template <class R>
 inline Triple<R> unit_of(Triple<R> a) {
     const R size = lane_max(lane_abs(a.x), lane_max(lane_abs(a.y), lane_abs(a.z)));
-    const Triple<R> b{a.x / size, a.y / size, a.z / size};
-    const R length = lane_sqrt(b.x * b.x + b.y * b.y + b.z * b.z);
-    return {b.x / length, b.y / length, b.z / length};
+    const R scale = R(1.0) / lane_max(size, R(0x1p-1022));
+    const Triple<R> b{a.x * scale, a.y * scale, a.z * scale};
+    const R inverse = R(1.0) / lane_sqrt(b.x * b.x + b.y * b.y + b.z * b.z);
+    return {b.x * inverse, b.y * inverse, b.z * inverse};
 }
 
 /// A normal in the frame of a leaf, seen from the frame outside: the transposed map, made unit.

@@ -21,11 +21,12 @@ inline void sphere_spans(const LocalRay<R>& ray, LaneSpans<R, M, 1>& out) {
     out.touched = lane_and(lane_not(out.valid[0]), room > R(0.0) - slack);
     out.touch_lo = out.touch_hi = R(0.0);
     if (!lane_any(lane_or(out.valid[0], out.touched))) return;
-    const R half = lane_sqrt(lane_max(room, slack));
-    const R per_length = R(1.0) / lane_sqrt(ray.dd);
-    const R h = half * per_length;
-    const R error = slack / half * per_length;
-    out.touch_hi = R(1.5) * half * per_length;
+    // h = room / sqrt(room d.d), and E/(d.d h) = E / sqrt(room d.d).
+    const R some_room = lane_max(room, slack);
+    const R inverse = R(1.0) / lane_sqrt(some_room * ray.dd);
+    const R h = some_room * inverse;
+    const R error = slack * inverse;
+    out.touch_hi = R(1.5) * h;
     out.touch_lo = R(0.0) - out.touch_hi;
     out.enter[0] = R(0.0) - h;
     out.exit[0] = h;
