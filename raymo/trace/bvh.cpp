@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstring>
 #include <limits>
 
 namespace raymo::trace {
@@ -13,29 +15,42 @@ constexpr int kBins = 16;
 /// child.
 constexpr float kLeafCost = 4.0F;
 
-struct Bounds {
-    std::array<float, 3> lo{kInf, kInf, kInf};
-    std::array<float, 3> hi{-kInf, -kInf, -kInf};
+/// x, y, z, and something that nobody asks for. (The compilers' own vectors: what is needed here is in every processor.)
+using Four = float __attribute__((vector_size(16)));
+using FourWhole = std::int32_t __attribute__((vector_size(16)));
 
-    void add(const std::array<float, 3>& l, const std::array<float, 3>& h) {
-        for (std::size_t i = 0; i < 3; ++i) {
-            lo[i] = std::min(lo[i], l[i]);
-            hi[i] = std::max(hi[i], h[i]);
-        }
+Four load(const float* from) {
+    Four out;
+    std::memcpy(&out, from, sizeof out);
+    return out;
+}
+
+struct Ref {
+    Boxf box;
+    std::uint32_t id;
+
+    [[nodiscard]] Four lo() const { return load(box.lo.data()); }
+    /// The number of the ref stands in the fourth place.
+    [[nodiscard]] Four hi() const { return load(box.hi.data()); }
+    [[nodiscard]] float centre2(std::size_t axis) const { return box.lo[axis] + box.hi[axis]; }
+};
+static_assert(offsetof(Boxf, hi) == 12 && offsetof(Ref, id) == 24);
+
+struct Bounds {
+    Four lo{kInf, kInf, kInf, kInf};
+    Four hi{-kInf, -kInf, -kInf, -kInf};
+
+    void add(Four l, Four h) {
+        lo = l < lo ? l : lo;
+        hi = h > hi ? h : hi;
     }
+    void add(const Bounds& other) { add(other.lo, other.hi); }
     [[nodiscard]] float half_area() const {
         const float x = hi[0] - lo[0];
         const float y = hi[1] - lo[1];
         const float z = hi[2] - lo[2];
         return x < 0.0F ? 0.0F : x * y + y * z + z * x;
     }
-};
-
-struct Ref {
-    Boxf box;
-    std::uint32_t id;
-
-    [[nodiscard]] float centre2(std::size_t axis) const { return box.lo[axis] + box.hi[axis]; }
 };
 
 /// A run of refs, with the box around them and the box around their centres (times 2).
@@ -49,9 +64,10 @@ struct Range {
     [[nodiscard]] std::uint32_t size() const { return end - begin; }
 };
 
-struct Bin {
-    Bounds bounds;
-    std::uint32_t count = 0;
+/// The bins of one axis. Those without refs have no bounds.
+struct Bins {
+    std::array<Bounds, kBins> bounds;
+    std::array<std::uint32_t, kBins> count;
 };
 
 class Builder {
@@ -107,9 +123,11 @@ private:
         r.end = end;
         for (std::uint32_t i = begin; i < end; ++i) {
             const Ref& ref = refs_[i];
-            r.bounds.add(ref.box.lo, ref.box.hi);
-            const std::array<float, 3> c{ref.centre2(0), ref.centre2(1), ref.centre2(2)};
-            r.centres.add(c, c);
+            const Four lo = ref.lo();
+            const Four hi = ref.hi();
+            r.bounds.add(lo, hi);
+            const Four centre = lo + hi;
+            r.centres.add(centre, centre);
         }
         return r;
     }
@@ -146,33 +164,31 @@ private:
         float best = kInf;
         std::size_t best_axis = 0;
         int best_plane = 0;
+        const Four to_bin = fill_bins(range);
         for (std::size_t axis = 0; axis < 3; ++axis) {
-            const float lo = range.centres.lo[axis];
-            const float extent = range.centres.hi[axis] - lo;
-            if (!(extent > 0.0F)) continue;
-            const float to_bin = static_cast<float>(kBins) * 0.99999F / extent;
-            if (!std::isfinite(to_bin)) continue;
-            std::array<Bin, kBins> bins{};
-            for (std::uint32_t i = range.begin; i < range.end; ++i) {
-                Bin& bin = bins[static_cast<std::size_t>((refs_[i].centre2(axis) - lo) * to_bin)];
-                bin.bounds.add(refs_[i].box.lo, refs_[i].box.hi);
-                ++bin.count;
-            }
-            std::array<float, kBins> right_cost{};
+            if (to_bin[axis] == 0.0F) continue;
+            const Bins& bins = bins_[axis];
+            // Planes beside an empty bin cost what their neighbours cost.
+            std::array<float, kBins> right_cost;
             Bounds acc;
             std::uint32_t count = 0;
+            float cost = 0.0F;
             for (std::size_t b = kBins - 1; b > 0; --b) {
-                acc.add(bins[b].bounds.lo, bins[b].bounds.hi);
-                count += bins[b].count;
-                right_cost[b] = acc.half_area() * static_cast<float>(count);
+                if (bins.count[b] > 0) {
+                    acc.add(bins.bounds[b]);
+                    count += bins.count[b];
+                    cost = acc.half_area() * static_cast<float>(count);
+                }
+                right_cost[b] = cost;
             }
             acc = {};
             count = 0;
             for (std::size_t b = 0; b + 1 < kBins; ++b) {
-                acc.add(bins[b].bounds.lo, bins[b].bounds.hi);
-                count += bins[b].count;
-                const float cost = acc.half_area() * static_cast<float>(count) + right_cost[b + 1];
-                if (count > 0 && count < n && cost < best) {
+                if (bins.count[b] == 0) continue;
+                acc.add(bins.bounds[b]);
+                count += bins.count[b];
+                cost = acc.half_area() * static_cast<float>(count) + right_cost[b + 1];
+                if (count < n && cost < best) {
                     best = cost;
                     best_axis = axis;
                     best_plane = static_cast<int>(b);
@@ -189,11 +205,10 @@ private:
         std::uint32_t middle = range.begin;
         if (best < kInf) {
             const float lo = range.centres.lo[best_axis];
-            const float to_bin =
-                static_cast<float>(kBins) * 0.99999F / (range.centres.hi[best_axis] - lo);
+            const float scale = to_bin[best_axis];
             const auto it = std::partition(
                 refs_.begin() + range.begin, refs_.begin() + range.end, [&](const Ref& ref) {
-                    return static_cast<int>((ref.centre2(best_axis) - lo) * to_bin) <= best_plane;
+                    return static_cast<int>((ref.centre2(best_axis) - lo) * scale) <= best_plane;
                 });
             middle = static_cast<std::uint32_t>(it - refs_.begin());
         }
@@ -204,8 +219,36 @@ private:
         return true;
     }
 
+    /// Puts the refs of a range into the bins of all axes. Gives the bins per length of each axis; 0: all refs stand at
+    /// one place of it.
+    Four fill_bins(const Range& range) {
+        Four to_bin{};
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const float extent = range.centres.hi[axis] - range.centres.lo[axis];
+            const float scale = static_cast<float>(kBins) * 0.99999F / extent;
+            if (extent > 0.0F && std::isfinite(scale)) to_bin[axis] = scale;
+            bins_[axis].count = {};
+        }
+        for (std::uint32_t i = range.begin; i < range.end; ++i) {
+            const Four lo = refs_[i].lo();
+            const Four hi = refs_[i].hi();
+            const auto place =
+                __builtin_convertvector((lo + hi - range.centres.lo) * to_bin, FourWhole);
+            for (std::size_t axis = 0; axis < 3; ++axis) {
+                const auto b = static_cast<std::size_t>(place[axis]);
+                if (bins_[axis].count[b]++ == 0) {
+                    bins_[axis].bounds[b] = {lo, hi};
+                } else {
+                    bins_[axis].bounds[b].add(lo, hi);
+                }
+            }
+        }
+        return to_bin;
+    }
+
     std::vector<Ref> refs_;
     std::array<Range, BvhNode::kWidth> pieces_;
+    std::array<Bins, 3> bins_;
 };
 
 float round_down(double v) {
