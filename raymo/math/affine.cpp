@@ -1,6 +1,8 @@
 #include "raymo/math/affine.hpp"
 
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <numbers>
 
@@ -22,7 +24,9 @@ namespace {
 double binary_size(Vec3 v) {
     const double size = max_norm(v);
     if (!(size > 0.0) || !std::isfinite(size)) return 0.0;
-    return std::ldexp(1.0, std::ilogb(size));
+    if (size < std::numeric_limits<double>::min()) return std::ldexp(1.0, std::ilogb(size));
+    constexpr std::uint64_t kExponent = 0x7ffULL << 52U;
+    return std::bit_cast<double>(std::bit_cast<std::uint64_t>(size) & kExponent);
 }
 
 }  // namespace
@@ -47,6 +51,7 @@ Mat3 inverse(const Mat3& m) {
 }
 
 bool is_invertible(const Mat3& m) {
+    if (m == Mat3{}) return true;
     Mat3 s;
     for (std::size_t i = 0; i < 3; ++i) {
         const double scale = binary_size(m.row[i]);
@@ -71,7 +76,8 @@ Affine translation(Vec3 by) { return {{}, by}; }
 Affine scaling(Vec3 by) { return {Mat3::diagonal(by.x, by.y, by.z), {}}; }
 
 SinCos sin_cos_degrees(double degrees) {
-    const double turn = std::remainder(degrees, 360.0);  // exact, in [-180, 180]
+    const double turn =  // exact, in [-180, 180]
+        std::fabs(degrees) <= 180.0 ? degrees : std::remainder(degrees, 360.0);
     if (turn == 0.0) return {0.0, 1.0};
     if (turn == 90.0) return {1.0, 0.0};
     if (turn == -90.0) return {-1.0, 0.0};
