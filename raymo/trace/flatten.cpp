@@ -163,6 +163,15 @@ Result<void> Flattener::expand(Work& work, std::span<const csg::Solid> parts, in
         return {};
     };
 
+    if (!share_) {
+        double leaves = 0.0;
+        for (const csg::Solid& part : parts) leaves += part.node().leaf_count;
+        // Every path is walked: there will be so many leaves, and about as many Booleans at most.
+        const auto count = static_cast<std::size_t>(leaves);
+        work.pending.reserve(count);
+        work.items.reserve(2 * count + parts.size());
+        tables_.frames().reserve(count);
+    }
     for (const csg::Solid& part : parts) {
         // Every part gets a union of its own as root, so that its group stands at the part's
         // number.
@@ -255,11 +264,14 @@ Frame frame_of(const Affine& map, std::uint32_t type, std::uint32_t index) {
 }
 
 /// Whether a leaf can be computed with there: squares of its sizes neither overflow nor vanish.
-bool is_placeable(const Affine& map) {
-    if (!is_invertible(map.linear) || !is_finite(map.offset) || max_norm(map.offset) > 1e90)
-        return false;
+bool is_placeable(Vec3 offset) { return is_finite(offset) && max_norm(offset) <= 1e90; }
+bool is_placeable(const Mat3& linear) {
+    if (!is_invertible(linear)) return false;
     for (int j = 0; j < 3; ++j) {
-        const double size = norm(map.linear.column(j));
+        const Vec3 column = linear.column(j);
+        const double longest = max_norm(column);
+        if (longest >= 1e-89 && longest <= 1e89) continue;  // no need for the exact length
+        const double size = norm(column);
         if (!(size >= 1e-90 && size <= 1e90)) return false;
     }
     return true;
@@ -275,7 +287,12 @@ float float_above(double v) {
 
 Result<void> Flattener::add_leaf(Work& work, const csg::LeafNode& node, const Visit& at) {
     const Placement place = at.place.then_inner(node.solid.to_object);
-    if (!is_placeable(place.map)) {
+    const auto type = static_cast<std::uint32_t>(node.solid.kernel.index());
+    const std::uint32_t kernel = tables_.kernel(node.solid.kernel);
+    // Leaves of a pattern differ in place alone.
+    const bool is_known =
+        type == last_.type && kernel == last_.kernel && place.map.linear == last_.linear;
+    if (!is_placeable(place.map.offset) || !(is_known || is_placeable(place.map.linear))) {
         const std::string_view name = solids::inventory()[node.primitive].schema->name;
         return Failure(
             Error{ErrorCode::singular,
@@ -283,24 +300,25 @@ Result<void> Flattener::add_leaf(Work& work, const csg::LeafNode& node, const Vi
                   "this becomes too small, too large or flat", "keep sizes between 1e-90 and 1e90",
                   -1, node.span});
     }
-    Frame frame = frame_of(place.map, static_cast<std::uint32_t>(node.solid.kernel.index()),
-                           tables_.kernel(node.solid.kernel));
     Item item{};
-    item.box =
-        std::visit([&](const auto& kernel) { return kernel.bounds(place.map); }, node.solid.kernel);
+    item.box = std::visit([&](const auto& k) { return k.bounds(place.map); }, node.solid.kernel);
     Pending pending{};
     pending.endless = !item.box.bounded();
-    if (pending.endless) frame.reach = std::numeric_limits<double>::infinity();
+    if (!is_known) {
+        Frame frame = frame_of(place.map, type, kernel);
+        if (pending.endless) frame.reach = std::numeric_limits<double>::infinity();
+        last_ = {type, kernel, place.map.linear, tables_.frame(frame)};
+    }
+    pending.leaf.frame = last_.frame;
     pending.primitive = node.primitive;
-    enlist(work, at, item, pending, frame, place, node.span);
+    enlist(work, at, item, pending, place, node.span);
     return {};
 }
 
 /// Puts a leaf or an instance, of which `item` has the box, on the lists.
-void Flattener::enlist(Work& work, const Visit& at, Item item, Pending pending, const Frame& frame,
+void Flattener::enlist(Work& work, const Visit& at, Item item, Pending pending,
                        const Placement& place, SourceSpan span) {
     pending.leaf.centre = place.map.offset;
-    pending.leaf.frame = tables_.frame(frame);
     const Vec3 tilt = place.linear_error * Vec3{1, 1, 1};
     pending.displacement = norm(tilt + place.offset_error);
     pending.linear_error = norm(tilt);
@@ -352,7 +370,9 @@ Result<bool> Flattener::add_instance(Work& work, const Visit& at, int depth) {
         {Mat3::diagonal(1.0 / solid.scale, 1.0 / solid.scale, 1.0 / solid.scale), solid.centre});
     Item item{};
     item.box = transformed(at.place.map, solid.bounds);
-    enlist(work, at, item, {}, frame_of(place.map, kInstanceType, index), place, node.span);
+    Pending pending{};
+    pending.leaf.frame = tables_.frame(frame_of(place.map, kInstanceType, index));
+    enlist(work, at, item, pending, place, node.span);
     return true;
 }
 
@@ -448,7 +468,11 @@ void Flattener::normalise(Work& work, CompiledSolid& out) {
             row *= 1.0 / out.scale;
             frame.row_length[i] = norm(row);
         }
-        data_.frames.push_back(frame);
+    }
+    if (data_.frames.empty()) {
+        data_.frames = std::move(tables_.frames());
+    } else {
+        data_.frames.insert(data_.frames.end(), tables_.frames().begin(), tables_.frames().end());
     }
     out.leaves.reserve(work.pending.size());
     work.boxes.reserve(work.pending.size());
@@ -461,6 +485,7 @@ void Flattener::normalise(Work& work, CompiledSolid& out) {
     for (std::size_t g = out.parts; g < out.groups.size(); ++g)
         is_unit[out.groups[g].parent] = false;
     out.simple = true;
+    const double far = norm(out.centre);
     std::uint32_t order = 0;
     for (Pending& pending : work.pending) {
         const Aabb& clip = work.items[pending.item].box;
@@ -470,7 +495,7 @@ void Flattener::normalise(Work& work, CompiledSolid& out) {
         double displacement = pending.displacement;
         // Rounding of the subtraction below; an endless leaf errs by its placement's tilt over the
         // whole model.
-        displacement += 2.0 * kUnitRoundoff * (norm(leaf.centre) + norm(out.centre));
+        displacement += 2.0 * kUnitRoundoff * (norm(leaf.centre) + far);
         if (pending.endless) {
             displacement += 2.0 * radius * (pending.linear_error + 16.0 * kUnitRoundoff);
         }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <span>
+#include <unordered_map>
 
 #include "raymo/core/progress.hpp"
 #include "raymo/core/result.hpp"
@@ -33,8 +34,8 @@ private:
     [[nodiscard]] Result<void> expand(Work& work, std::span<const csg::Solid> parts, int depth);
     [[nodiscard]] Result<bool> add_instance(Work& work, const Visit& at, int depth);
     [[nodiscard]] Result<void> add_leaf(Work& work, const csg::LeafNode& node, const Visit& at);
-    void enlist(Work& work, const Visit& at, Item item, Pending pending, const Frame& frame,
-                const Placement& place, SourceSpan span);
+    void enlist(Work& work, const Visit& at, Item item, Pending pending, const Placement& place,
+                SourceSpan span);
     void combine_boxes(Work& work) const;
     [[nodiscard]] Result<void> check_bounded(const Work& work) const;
     void make_groups(Work& work, CompiledSolid& out);
@@ -46,6 +47,13 @@ private:
     bool share_;
     Progress* progress_;
     std::unordered_map<const csg::Node*, std::uint32_t> compiled_;
+    /// The frame that was made last, and what of: frames cost more than all else of a leaf.
+    struct {
+        std::uint32_t type = kNone;
+        std::uint32_t kernel = kNone;
+        Mat3 linear;
+        std::uint32_t frame = kNone;
+    } last_;
 };
 
 }  // namespace raymo::trace

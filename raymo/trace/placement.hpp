@@ -20,7 +20,7 @@ struct Placement {
         constexpr double kEntry = kInputError + 4.0 * kUnitRoundoff;
         const Mat3 size = abs(map.linear);
         Placement out;
-        out.map = map * inner;
+        out.map.offset = map(inner.offset);
         const Vec3 b = abs(inner.offset);
         out.offset_error = offset_error + linear_error * b + size * b * kEntry +
                            abs(out.map.offset) * (2.0 * kUnitRoundoff);
@@ -29,6 +29,7 @@ struct Placement {
             out.linear_error = linear_error;
             return out;
         }
+        out.map.linear = map.linear * inner.linear;
         const Mat3 inner_size = abs(inner.linear);
         out.linear_error = linear_error * inner_size;
         const Mat3 rounding = size * inner_size;

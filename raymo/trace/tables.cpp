@@ -7,15 +7,19 @@
 namespace raymo::trace {
 namespace {
 
-/// Mixes `value` into `hash` (the finaliser of SplitMix64).
-std::uint64_t mix(std::uint64_t hash, std::uint64_t value) {
-    hash ^= value + 0x9e3779b97f4a7c15ULL;
-    hash = (hash ^ (hash >> 30)) * 0xbf58476d1ce4e5b9ULL;
-    hash = (hash ^ (hash >> 27)) * 0x94d049bb133111ebULL;
-    return hash ^ (hash >> 31);
-}
-std::uint64_t mix_number(std::uint64_t hash, double value) {
-    return mix(hash, std::bit_cast<std::uint64_t>(value));
+/// The entries of a matrix, each times an odd number of its own, so that the products do not wait for each other. Both
+/// zeros count as one.
+std::uint64_t sum_of(const Mat3& m) {
+    std::uint64_t sum = 0;
+    std::uint64_t factor = 0x9e3779b97f4a7c15ULL;
+    for (const Vec3& row : m.row) {
+        for (int i = 0; i < 3; ++i) {
+            const auto bits = std::bit_cast<std::uint64_t>(row[i] + 0.0);
+            sum += (bits ^ (bits >> 29)) * factor;
+            factor += 0xd1b54a32d192ed02ULL;
+        }
+    }
+    return sum;
 }
 
 }  // namespace
@@ -51,22 +55,20 @@ std::uint32_t Tables::kernel(const solids::AnyKernel& kernel) {
 }
 
 std::uint32_t Tables::frame(const Frame& frame) {
-    std::uint64_t hash = mix(frame.type, frame.index);
-    for (const Vec3& row : frame.to_local.row) {
-        for (int i = 0; i < 3; ++i) hash = mix_number(hash, row[i] + 0.0);
-    }
-    const auto [first, last] = frame_index_.equal_range(hash);
-    for (auto it = first; it != last; ++it) {
-        Frame& known = frames_[it->second];
-        if (known.to_local == frame.to_local && known.type == frame.type &&
-            known.index == frame.index) {
-            known.error = max(known.error, frame.error);
-            return it->second;
-        }
+    const std::uint64_t hash =
+        mix(sum_of(frame.to_local), (std::uint64_t{frame.type} << 32) + frame.index);
+    const std::uint32_t found = frame_index_.find(hash, [&](std::uint32_t row) {
+        const Frame& known = frames_[row];
+        return known.to_local == frame.to_local && known.type == frame.type &&
+               known.index == frame.index;
+    });
+    if (found != RowIndex::kNoRow) {
+        frames_[found].error = max(frames_[found].error, frame.error);
+        return found;
     }
     const auto index = static_cast<std::uint32_t>(frames_.size());
     frames_.push_back(frame);
-    frame_index_.emplace(hash, index);
+    frame_index_.add(hash, index);
     return index;
 }
 
@@ -75,13 +77,12 @@ std::uint32_t Tables::look(const Look& look) {
     hash = mix(hash, (std::uint64_t{look.span.file} << 32) + look.span.begin);
     hash = mix(hash, std::uint64_t{look.span.end} * 8 + (look.literal_negated ? 4U : 0U) +
                          (look.cuts ? 2U : 0U) + (look.borrows ? 1U : 0U));
-    const auto [first, last] = look_index_.equal_range(hash);
-    for (auto it = first; it != last; ++it) {
-        if (data_.looks[it->second] == look) return it->second;
-    }
+    const std::uint32_t found =
+        look_index_.find(hash, [&](std::uint32_t row) { return data_.looks[row] == look; });
+    if (found != RowIndex::kNoRow) return found;
     const auto index = static_cast<std::uint32_t>(data_.looks.size());
     data_.looks.push_back(look);
-    look_index_.emplace(hash, index);
+    look_index_.add(hash, index);
     return index;
 }
 

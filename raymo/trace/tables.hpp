@@ -2,9 +2,9 @@
 // one compiled solid.
 #pragma once
 
-#include <unordered_map>
 #include <vector>
 
+#include "raymo/core/row_index.hpp"
 #include "raymo/trace/data.hpp"
 
 namespace raymo::trace {
@@ -24,8 +24,8 @@ public:
 private:
     CompiledScene::Data& data_;
     std::vector<Frame> frames_;
-    std::unordered_multimap<std::uint64_t, std::uint32_t> frame_index_;
-    std::unordered_multimap<std::uint64_t, std::uint32_t> look_index_;
+    RowIndex frame_index_;
+    RowIndex look_index_;
 };
 
 }  // namespace raymo::trace
