@@ -25,7 +25,7 @@ Value* ValueStack::push(std::size_t count) {
 }
 
 void ValueStack::pop(Value* first, std::size_t count, Mark before) {
-    for (std::size_t i = 0; i < count; ++i) first[i] = Value();
+    for (std::size_t i = 0; i < count; ++i) first[i].reset();
     chunk_ = before.chunk;
     used_ = before.used;
 }
@@ -140,7 +140,7 @@ bool Evaluator::call_planned(const CallPlan& plan, const Node& n, NodeId id, std
         }
         NodeId argument = ast_.child(n, first + i);
         if (ast_[argument].kind == NodeKind::argument) argument = ast_.child(ast_[argument], 0);
-        good = eval(argument, slot);
+        good = operand(argument, slot);
     }
     if (good) {
         good = plan.is_builtin ? run_builtin(plan.callee, slots, plan.slots, id, &plan, first, out)

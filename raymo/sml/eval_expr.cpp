@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "raymo/core/assert.hpp"
+#include "raymo/sml/arithmetic.hpp"
 #include "raymo/sml/evaluate.hpp"
 #include "raymo/sml/lexer.hpp"
 #include "raymo/sml/suggest.hpp"
@@ -14,7 +15,7 @@ bool Evaluator::eval(NodeId id, Value& out) {
     const Node& n = ast_[id];
     switch (n.kind) {
         case NodeKind::number:
-            out = Value::number(n.number);
+            out.set_number(n.number);
             return true;
         case NodeKind::name:
             return eval_name(n, id, out);
@@ -134,7 +135,7 @@ bool Evaluator::condition(NodeId id, std::string_view what, bool& out) {
 
 bool Evaluator::number_of(NodeId id, std::string_view what, double& out) {
     Value value;
-    if (!eval(id, value)) return false;
+    if (!operand(id, value)) return false;
     if (!value.is(Tag::number)) {
         return fail(ErrorCode::bad_argument, span(id), fmt::format("{} must be a number", what), {},
                     fmt::format("this is {}", kind_text(value)));
@@ -147,7 +148,7 @@ bool Evaluator::eval_list(const Node& n, NodeId id, Value& out) {
     if (!room(16.0 * n.count, id)) return false;
     std::vector<Value> items(n.count);
     for (std::uint32_t i = 0; i < n.count; ++i) {
-        if (!eval(ast_.child(n, i), items[i])) return false;
+        if (!operand(ast_.child(n, i), items[i])) return false;
     }
     out = Value::list(std::move(items));
     return true;
@@ -204,21 +205,14 @@ bool Evaluator::eval_binary(const Node& n, NodeId id, Value& out) {
     const NodeId right = ast_.child(n, 1);
     Value a;
     Value b;
-    if (!eval(left, a) || !eval(right, b)) return false;
+    if (!operand(left, a) || !operand(right, b)) return false;
     if (a.is(Tag::number) && b.is(Tag::number)) {
         const double x = a.number();
         const double y = b.number();
-        double r = 0.0;
         switch (n.op) {
-            case Operator::add:
-                r = x + y;
-                break;
-            case Operator::subtract:
-                r = x - y;
-                break;
-            case Operator::multiply:
-                r = x * y;
-                break;
+            case Operator::equal:
+                out = Value::boolean(x == y);
+                return true;
             case Operator::less:
                 out = Value::boolean(x < y);
                 return true;
@@ -232,10 +226,11 @@ bool Evaluator::eval_binary(const Node& n, NodeId id, Value& out) {
                 out = Value::boolean(x >= y);
                 return true;
             default:
-                return binary(n.op, a, b, id, n.span(), left, right, out);
+                break;
         }
-        if (std::isfinite(r)) {
-            out = Value::number(r);
+        double r = 0.0;
+        if (quick_arithmetic(n.op, x, y, r)) {
+            out.set_number(r);
             return true;
         }
     }
@@ -245,7 +240,7 @@ bool Evaluator::eval_binary(const Node& n, NodeId id, Value& out) {
 // Runs of the same operator on solids become one Boolean of many operands.
 bool Evaluator::eval_chain(const Node& n, NodeId id, Value& out) {
     Value left;
-    if (!eval(ast_.child(n, 0), left)) return false;
+    if (!operand(ast_.child(n, 0), left)) return false;
     std::vector<csg::Solid> run;  // operands of `run_op` that are not combined yet
     Operator run_op = Operator::none;
     std::uint32_t run_end = n.begin;
@@ -259,29 +254,36 @@ bool Evaluator::eval_chain(const Node& n, NodeId id, Value& out) {
         return done;
     };
     for (std::uint32_t i = 1; i < n.count; ++i) {
-        const Node& operand = ast_[ast_.child(n, i)];
-        const NodeId right_id = ast_.child(operand, 0);
+        const Node& next = ast_[ast_.child(n, i)];
+        const NodeId right_id = ast_.child(next, 0);
         Value right;
-        if (!eval(right_id, right)) return false;
-        const bool is_boolean = operand.op == Operator::add || operand.op == Operator::subtract ||
-                                operand.op == Operator::intersect;
+        if (!operand(right_id, right)) return false;
+        double r = 0.0;
+        if (left.is(Tag::number) && right.is(Tag::number) &&
+            quick_arithmetic(next.op, left.number(), right.number(), r)) {
+            left.set_number(r);
+            if (!step(id)) return false;
+            continue;
+        }
+        const bool is_boolean = next.op == Operator::add || next.op == Operator::subtract ||
+                                next.op == Operator::intersect;
         const bool left_is_solid = !run.empty() || left.is(Tag::solid);
         if (is_boolean && left_is_solid && right.is(Tag::solid)) {
-            if (!run.empty() && run_op != operand.op && !flush()) return false;
+            if (!run.empty() && run_op != next.op && !flush()) return false;
             if (run.empty()) run.push_back(left.solid());
-            run_op = operand.op;
+            run_op = next.op;
             run.push_back(right.solid());
         } else {
             if (!flush()) return false;
             Value result;
             const NodeId left_id = i == 1 ? ast_.child(n, 0) : kNoNode;
-            if (!binary(operand.op, left, right, id, {n.file, n.begin, operand.end}, left_id,
-                        right_id, result)) {
+            if (!binary(next.op, left, right, id, {n.file, n.begin, next.end}, left_id, right_id,
+                        result)) {
                 return false;
             }
             left = std::move(result);
         }
-        run_end = operand.end;
+        run_end = next.end;
         if (!step(id)) return false;
     }
     if (!flush()) return false;

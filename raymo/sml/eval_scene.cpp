@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <bit>
 #include <cmath>
 
 #include "raymo/sml/evaluate.hpp"
@@ -73,19 +74,18 @@ bool Evaluator::made(const csg::Solid& solid, bool is_primitive, NodeId site) {
 }
 
 csg::MaterialId Evaluator::material(const scene::Material& m) {
-    std::size_t hash = std::hash<std::string>()(m.name);
+    std::uint64_t hash = std::hash<std::string>()(m.name);
     for (const double x : {m.color.x, m.color.y, m.color.z, m.diffuse, m.specular, m.roughness,
                            m.metal, m.mirror, m.transmission, m.ior}) {
-        hash = hash * 31 + std::hash<double>()(x);
+        hash = mix(hash, std::bit_cast<std::uint64_t>(x + 0.0));  // both zeros are equal
     }
-    const auto [first, last] = materials_.equal_range(hash);
-    for (auto known = first; known != last; ++known) {
-        if (outcome_.scene.materials[known->second] == m) return known->second;
-    }
+    const std::uint32_t known = materials_.find(
+        hash, [&](std::uint32_t row) { return outcome_.scene.materials[row] == m; });
+    if (known != RowIndex::kNoRow) return known;
     heap_.charge(sizeof(scene::Material) + 64);
     const auto id = static_cast<csg::MaterialId>(outcome_.scene.materials.size());
     outcome_.scene.materials.push_back(m);
-    materials_.emplace(hash, id);
+    materials_.add(hash, id);
     return id;
 }
 

@@ -84,7 +84,7 @@ bool Evaluator::comprehend(const Node& n, NodeId id, std::uint32_t clause,
     });
 }
 
-void Evaluator::store(const Node& name, Value value) {
+void Evaluator::store(const Node& name, Value&& value) {
     if (name.place == Place::global) {
         globals_[name.slot] = std::move(value);
         return;
@@ -101,7 +101,7 @@ void Evaluator::store(const Node& name, Value value) {
     target = std::move(value);
 }
 
-bool Evaluator::bind(NodeId pattern, Value value, NodeId source) {
+bool Evaluator::bind(NodeId pattern, Value&& value, NodeId source) {
     const Node& n = ast_[pattern];
     if (n.kind == NodeKind::binding) {
         store(n, std::move(value));
@@ -119,7 +119,7 @@ bool Evaluator::bind(NodeId pattern, Value value, NodeId source) {
                         fmt::format("this has {}", value.items().size()));
         }
         for (std::uint32_t i = 0; i < n.count; ++i) {
-            store(ast_[ast_.child(n, i)], value.items()[i]);
+            store(ast_[ast_.child(n, i)], Value(value.items()[i]));
         }
         return true;
     }
@@ -135,7 +135,7 @@ bool Evaluator::bind(NodeId pattern, Value value, NodeId source) {
                 ErrorCode::name, name.span(),
                 fmt::format("the record has no field `{}`", program_.symbols.text(name.symbol)));
         }
-        store(name, *field);
+        store(name, Value(*field));
     }
     return true;
 }

@@ -11,6 +11,7 @@
 #include <unordered_set>
 #include <vector>
 
+#include "raymo/core/row_index.hpp"
 #include "raymo/sml/builtins/builtin.hpp"
 #include "raymo/sml/program.hpp"
 #include "raymo/sml/value.hpp"
@@ -101,6 +102,22 @@ private:
 
     // Expressions (eval_expr.cpp)
     bool eval(NodeId id, Value& out);
+    /// eval() for what is mostly a number, written out or in a variable; `out` is missing.
+    bool operand(NodeId id, Value& out) {
+        const Node& n = ast_[id];
+        if (n.kind == NodeKind::number) {
+            out.set_number(n.number);
+            return true;
+        }
+        if (n.kind == NodeKind::name && n.place == Place::local) {
+            const Value& v = frame_->slots[n.slot];
+            if (v.is(Tag::number)) {
+                out.set_number(v.number());
+                return true;
+            }
+        }
+        return eval(id, out);
+    }
     bool eval_name(const Node& n, NodeId id, Value& out);
     bool eval_list(const Node& n, NodeId id, Value& out);
     bool eval_record(const Node& n, Value& out);
@@ -145,8 +162,8 @@ private:
     bool exec_view(const Node& n);
     bool exec_assign(const Node& n);
     bool check_domain(NodeId domain, const std::string& name, const Value& value, SourceSpan where);
-    bool bind(NodeId pattern, Value value, NodeId source);
-    void store(const Node& name, Value value);
+    bool bind(NodeId pattern, Value&& value, NodeId source);
+    void store(const Node& name, Value&& value);
     /// Calls f(element) for each element of a list, range or text; f returns false to stop.
     template <class F>
     bool for_each(NodeId source, F&& f);
@@ -177,7 +194,7 @@ private:
     int depth_ = 0;
     const char* stack_base_ = nullptr;
     bool in_main_file_ = false;
-    std::unordered_multimap<std::size_t, csg::MaterialId> materials_;
+    RowIndex materials_;  ///< of the scene's materials
     std::unordered_map<std::string, std::uint32_t> part_names_;
     std::unordered_set<NodeId> warned_;
     std::unordered_map<NodeId, TextRange> docs_;

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "raymo/sml/arithmetic.hpp"
 #include "raymo/sml/evaluate.hpp"
 #include "raymo/sml/text.hpp"
 
@@ -25,12 +26,6 @@ bool compare(Operator op, int order) {
         default:
             return order >= 0;
     }
-}
-
-// The remainder takes the sign of the divisor, so that i % n is an index for negative i too.
-double remainder_of(double a, double b) {
-    const double r = std::fmod(a, b);
-    return r != 0.0 && (r < 0.0) != (b < 0.0) ? r + b : r;
 }
 
 double arithmetic(Operator op, double a, double b) {

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstdint>
+#include <cstring>
 #include <limits>
 #include <span>
 #include <string>
@@ -83,27 +84,33 @@ public:
             ++object_->references;
         }
     }
-    Value(Value&& other) noexcept : tag_(other.tag_), bits_(0) {
-        if (tag_ == Tag::solid) {
-            new (&solid_) csg::Solid(std::move(other.solid_));
-            other.solid_.~Solid();
-        } else {
-            bits_ = other.bits_;
-        }
-        other.tag_ = Tag::missing;
-    }
+    Value(Value&& other) noexcept : tag_(other.tag_) { take(other); }
     Value& operator=(const Value& other) noexcept {
-        if (this != &other) *this = Value(other);
+        if (this != &other) {
+            Value copy(other);
+            clear();
+            tag_ = copy.tag_;
+            take(copy);
+        }
         return *this;
     }
     Value& operator=(Value&& other) noexcept {
         if (this != &other) {
             clear();
-            new (this) Value(std::move(other));
+            tag_ = other.tag_;
+            take(other);
         }
         return *this;
     }
     ~Value() { clear(); }
+
+    /// Becomes a number.
+    void set_number(double number) noexcept {
+        if (tag_ >= Tag::solid) drop();
+        tag_ = Tag::number;
+        number_ = number;
+    }
+    void reset() noexcept { clear(); }
 
     [[nodiscard]] static Value nothing() { return Value(Tag::nothing, 0); }
     [[nodiscard]] static Value boolean(bool b) { return Value(Tag::boolean, b ? 1 : 0); }
@@ -156,6 +163,12 @@ private:
         tag_ = Tag::missing;
     }
     void drop() noexcept;
+    /// Moves the payload here. A solid is one pointer, and leaves none behind.
+    void take(Value& other) noexcept {
+        static_assert(sizeof(csg::Solid) == sizeof(std::uint64_t));
+        std::memcpy(static_cast<void*>(&bits_), &other.bits_, sizeof bits_);
+        other.tag_ = Tag::missing;
+    }
 
     Tag tag_;
     union {
