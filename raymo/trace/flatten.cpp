@@ -16,6 +16,7 @@
 
 #include "raymo/core/assert.hpp"
 #include "raymo/trace/placement.hpp"
+#include "raymo/trace/units.hpp"
 
 namespace raymo::trace {
 
@@ -54,8 +55,7 @@ struct Flattener::Pending {
 struct Flattener::Work {
     std::vector<Item> items;
     std::vector<Pending> pending;
-    std::vector<Boxf> boxes;               ///< of units
-    std::vector<std::uint8_t> unit_sizes;  ///< leaves of each unit, which follow one another
+    std::vector<Boxf> boxes;  ///< of the leaves that are kept
 };
 
 struct Flattener::Visit {
@@ -79,43 +79,9 @@ Result<std::uint32_t> Flattener::compile(std::span<const csg::Solid> parts, int 
     normalise(work, out);
     if (out.leaves.empty() && depth > 0) return kNone;
 
-    plant_tree(work, out);
+    plant_trees(out, work.boxes, data_);
     data_.solids.push_back(std::move(out));
     return static_cast<std::uint32_t>(data_.solids.size() - 1);
-}
-
-void Flattener::plant_tree(Work& work, CompiledSolid& out) {
-    std::vector<std::uint32_t> first(work.unit_sizes.size());  // leaf of each unit, as listed
-    std::uint32_t next = 0;
-    for (std::size_t u = 0; u < first.size(); ++u) {
-        first[u] = next;
-        next += work.unit_sizes[u];
-    }
-    Bvh tree = build_bvh(work.boxes);
-    std::vector<std::uint32_t> place(first.size() +
-                                     1);  // leaf of each unit, in the order of the tree
-    std::vector<Leaf> sorted;
-    sorted.reserve(out.leaves.size());
-    for (std::size_t i = 0; i < tree.order.size(); ++i) {
-        const std::uint32_t unit = tree.order[i];
-        place[i] = static_cast<std::uint32_t>(sorted.size());
-        for (std::uint32_t k = 0; k < work.unit_sizes[unit]; ++k) {
-            sorted.push_back(out.leaves[first[unit] + k]);
-            sorted.back().unit = k == 0 ? work.unit_sizes[unit] : std::uint8_t{0};
-        }
-    }
-    place.back() = static_cast<std::uint32_t>(sorted.size());
-    for (BvhNode& node : tree.nodes) {
-        for (int c = 0; c < BvhNode::kWidth; ++c) {
-            if (node.count[c] == 0) continue;
-            const std::uint32_t begin = place[node.ref[c]];
-            const std::uint32_t end = place[node.ref[c] + node.count[c]];
-            node.ref[c] = begin;
-            node.count[c] = static_cast<std::uint8_t>(end - begin);
-        }
-    }
-    out.leaves = std::move(sorted);
-    out.nodes = std::move(tree.nodes);
 }
 
 Result<void> Flattener::expand(Work& work, std::span<const csg::Solid> parts, int depth) {
@@ -476,15 +442,6 @@ void Flattener::normalise(Work& work, CompiledSolid& out) {
     }
     out.leaves.reserve(work.pending.size());
     work.boxes.reserve(work.pending.size());
-    work.unit_sizes.reserve(work.pending.size());
-    // A group that is a product of nothing but leaves, right below a part's root, is a unit.
-    std::vector<bool> is_unit(out.groups.size());
-    for (std::size_t g = out.parts; g < out.groups.size(); ++g) {
-        is_unit[g] = out.groups[g].parent < out.parts && out.groups[g].negated;
-    }
-    for (std::size_t g = out.parts; g < out.groups.size(); ++g)
-        is_unit[out.groups[g].parent] = false;
-    out.simple = true;
     const double far = norm(out.centre);
     std::uint32_t order = 0;
     for (Pending& pending : work.pending) {
@@ -508,34 +465,9 @@ void Flattener::normalise(Work& work, CompiledSolid& out) {
         // crossing may be uncertain by kDegenerate of the leaf's size and must not precede its box.
         const double margin =
             0x1p-18 + 2.0 * kDegenerate * max_norm(box.size()) + leaf.displacement;
-        const Boxf around = outward(box, margin);
-        const bool loose = leaf.parent < out.parts;
-        const bool joins = !loose && is_unit[leaf.parent] && !out.leaves.empty() &&
-                           out.leaves.back().parent == leaf.parent &&
-                           work.unit_sizes.back() < kMostInUnit;
-        out.simple =
-            out.simple && kind_of(data_.frames[leaf.frame].type) != LeafKind::single_rays &&
-            (loose || (is_unit[leaf.parent] &&
-                       kind_of(data_.frames[leaf.frame].type) == LeafKind::one_span &&
-                       (joins || out.leaves.empty() || out.leaves.back().parent != leaf.parent)));
+        work.boxes.push_back(outward(box, margin));
         out.leaves.push_back(leaf);
-        if (joins) {
-            work.boxes.back() = hull(work.boxes.back(), around);
-            ++work.unit_sizes.back();
-        } else {
-            work.boxes.push_back(around);
-            work.unit_sizes.push_back(1);
-        }
     }
-    std::vector<std::uint32_t> members(
-        out.parts);  // leaves and groups right below each part's root
-    for (const Leaf& leaf : out.leaves) {
-        if (leaf.parent < out.parts) ++members[leaf.parent];
-    }
-    for (const Group& group : out.groups) {
-        if (group.parent < out.parts) ++members[group.parent];
-    }
-    for (Leaf& leaf : out.leaves) leaf.alone = leaf.parent < out.parts && members[leaf.parent] == 1;
 }
 
 }  // namespace raymo::trace

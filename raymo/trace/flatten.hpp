@@ -40,7 +40,6 @@ private:
     [[nodiscard]] Result<void> check_bounded(const Work& work) const;
     void make_groups(Work& work, CompiledSolid& out);
     void normalise(Work& work, CompiledSolid& out);
-    static void plant_tree(Work& work, CompiledSolid& out);
 
     CompiledScene::Data& data_;
     Tables tables_;

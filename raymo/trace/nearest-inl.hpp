@@ -1,7 +1,7 @@
 // The nearest surface of a simple solid for a packet of rays; included by walk.cpp once per instruction set, inside
 // HWY_NAMESPACE.
 //
-// A solid is simple when every part is a union of units: leaves, and products of leaves (a & b - c - d). Seen from outside
+// A solid is simple when every part is a union of units (units.hpp): leaves, and products of leaves (a & b - c - d). Seen from outside
 // of all of them, the first change of any part is the nearest place where some unit is entered, which takes a minimum
 // over units instead of events and counters. The answer is taken only where it is certain to be what the events would
 // give (walker.hpp): nothing else may overlap it, the ray may not start inside a unit (but for one that is a whole part
@@ -122,6 +122,9 @@ HWY_INLINE void store(const NearestInLanes& l, Nearest& n, int first) {
     store(l.t + l.error, n.hi + first);
 }
 
+/// Rays that go through more overlapping cutters of one product than this are traced one by one.
+inline constexpr int kMostSearches = 32;
+
 /// Added to the number of a leaf that is left instead of entered.
 inline constexpr double kLeaving = 0.5;
 
@@ -159,21 +162,113 @@ HWY_INLINE std::uint32_t meet_leaf(Walker<8>& w, std::uint32_t index, int first,
     return inside;
 }
 
-/// A product: inside all of its positive leaves and none of the others. Returns the rays that start inside it.
+/// A product while it is met: inside all leaves of its core, and none of those that are taken away.
+struct ProductInLanes {
+    Mask alive;       ///< rays that may still meet it
+    Mask doubtful;    ///< where something was undecided
+    Mask from_start;  ///< `at` is the start of the ray
+    EndInLanes at;    ///< the first place that is not known to be taken away
+    Lanes at_leaf;    ///< leaf whose surface is there
+    // Where the first leaf of the core is left.
+    Lanes exit_near, exit_lo, exit_hi;
+
+    /// As long as the place lies in a leaf that is taken away, it goes on to where that is left. Returns the rays for which it
+    /// did.
+    HWY_INLINE Mask leave(const SpanInLanes& span, Lanes leaf, Lanes start) {
+        const Mask before =
+            lane_or(span.enter.lo <= at.hi, lane_and(from_start, span.enter.near <= start));
+        const Mask entered = lane_and(alive, lane_and(span.valid, before));
+        const Mask left =
+            lane_or(lane_and(from_start, span.exit.near <= start), span.exit.hi < at.lo);
+        const Mask within = lane_and(entered, lane_not(left));
+        const Mask goes_on = lane_and(within, span.exit.lo > at.hi);
+        doubtful = lane_or(doubtful, lane_and(within, lane_not(span.exit.lo > at.hi)));
+        at.t = lane_select(goes_on, span.exit.t, at.t);
+        at.error = lane_select(goes_on, span.exit.error, at.error);
+        at.face = lane_select(goes_on, span.exit.face, at.face);
+        at.lo = lane_select(goes_on, span.exit.lo, at.lo);
+        at.hi = lane_select(goes_on, span.exit.hi, at.hi);
+        at_leaf = lane_select(goes_on, leaf, at_leaf);
+        from_start = lane_and(from_start, lane_not(goes_on));
+        return goes_on;
+    }
+};
+
+/// Looks among the cutters of a product, in the tree with root `root`, for those that the place p.at of the rays `lanes` lies
+/// in. Returns the rays for which it went on.
+HWY_INLINE std::uint32_t search_cutters(Walker<8>& w, std::uint32_t root, int first,
+                                        std::uint32_t lanes, ProductInLanes& p,
+                                        NearestInLanes& nearest) {
+    const F f;
+    const Context<8>& c = w.contexts[0];
+    const Lanes start = nearest.start;
+    // Boxes are met where the place may be; the rays that do not count, nowhere.
+    alignas(64) float from[8];
+    alignas(64) float to[8];
+    for (int i = 0; i < 8; ++i) {
+        from[i] = std::numeric_limits<float>::infinity();
+        to[i] = -from[i];
+    }
+    const Mask here = mask_of(lanes);
+    const auto slack = [](Lanes t) { return Lanes(0x1p-20) * lane_abs(t); };
+    store_floats(lane_select(here, p.at.lo - slack(p.at.lo), Lanes(kInfinity)), from + first);
+    store_floats(lane_select(here, p.at.hi + slack(p.at.hi), Lanes(-kInfinity)), to + first);
+    RaysInFloats rays[8 / kFloats];
+    for (int v = 0; v < 8 / kFloats; ++v) {
+        rays[v] = rays_in_floats(c, v * kFloats);
+        rays[v].from = hn::Load(f, from + v * kFloats);
+        rays[v].to = hn::Load(f, to + v * kFloats);
+    }
+    std::uint32_t moved = 0;
+    std::vector<std::uint32_t>& nodes = w.cutter_nodes;
+    nodes.assign(1, root);
+    while (!nodes.empty()) {
+        const BvhNode& node = c.solid->nodes[nodes.back()];
+        nodes.pop_back();
+        ++w.boxes;
+        for (int k = 0; k < BvhNode::kWidth && node.lo[0][k] <= node.hi[0][k]; ++k) {
+            const std::uint32_t met = meet_box(rays, node, k).lanes;
+            if (met == 0) continue;
+            if (node.count[k] == 0) {
+                nodes.push_back(node.ref[k]);
+                continue;
+            }
+            w.leaves += node.count[k] * static_cast<std::uint64_t>(lane_count(met));
+            for (std::uint32_t leaf = node.ref[k]; leaf < node.ref[k] + node.count[k]; ++leaf) {
+                SpanInLanes spans[2];
+                Mask trouble;
+                Lanes trouble_lo;
+                const int count = spans_of(w, leaf, first, spans, trouble, trouble_lo);
+                nearest.doubt(lane_and(here, trouble), trouble_lo);
+                for (int i = 0; i < count; ++i) {
+                    SpanInLanes& span = spans[i];
+                    span.valid = lane_and(span.valid, here);
+                    const Mask about = lane_and(span.valid, span.exit.hi >= start);
+                    nearest.pass(lane_and(about, span.enter.near <= start), span.enter.hi);
+                    nearest.pass(lane_and(about, span.exit.near <= start), span.exit.hi);
+                    moved |= bits(p.leave(span, Lanes(static_cast<double>(leaf)), start));
+                }
+            }
+        }
+    }
+    return moved;
+}
+
+/// A product, in its unit's place. Returns the rays that start inside it.
 HWY_INLINE std::uint32_t meet_product(Walker<8>& w, std::uint32_t index, int size, int first,
                                       std::uint32_t lanes, NearestInLanes& nearest) {
     const CompiledSolid& solid = *w.contexts[0].solid;
     const Lanes start = nearest.start;
-    Mask alive = mask_of(lanes);
-    Mask doubtful = lane_and(alive, lane_not(alive));
-    // Where all positive leaves are entered, and where the first of them is left.
+    const Mask here = mask_of(lanes);
+    ProductInLanes p;
+    p.alive = here;
+    p.doubtful = lane_and(here, lane_not(here));
+    // Where all leaves of the core are entered, and where the first of them is left.
     EndInLanes enter;
     enter.t = enter.lo = enter.hi = enter.near = Lanes(-kInfinity);
     enter.error = enter.face = Lanes(0.0);
-    Lanes enter_leaf(0.0);
-    Lanes exit_near(kInfinity);
-    Lanes exit_lo(kInfinity);
-    Lanes exit_hi(kInfinity);
+    p.at_leaf = Lanes(0.0);
+    p.exit_near = p.exit_lo = p.exit_hi = Lanes(kInfinity);
     SpanInLanes taken[kMostInUnit];
     Lanes taken_leaf[kMostInUnit];
     int taken_count = 0;
@@ -183,9 +278,9 @@ HWY_INLINE std::uint32_t meet_product(Walker<8>& w, std::uint32_t index, int siz
         Mask trouble;
         Lanes trouble_lo;
         static_cast<void>(spans_of(w, leaf, first, spans, trouble, trouble_lo));
-        nearest.doubt(lane_and(mask_of(lanes), trouble), trouble_lo);
+        nearest.doubt(lane_and(here, trouble), trouble_lo);
         const SpanInLanes& span = spans[0];
-        const Mask about = lane_and(lane_and(mask_of(lanes), span.valid), span.exit.hi >= start);
+        const Mask about = lane_and(lane_and(here, span.valid), span.exit.hi >= start);
         nearest.pass(lane_and(about, span.enter.near <= start), span.enter.hi);
         nearest.pass(lane_and(about, span.exit.near <= start), span.exit.hi);
         const Lanes number(static_cast<double>(leaf));
@@ -194,67 +289,64 @@ HWY_INLINE std::uint32_t meet_product(Walker<8>& w, std::uint32_t index, int siz
             taken_leaf[taken_count++] = number;
             continue;
         }
-        alive = lane_and(alive, span.valid);
-        if (!lane_any(alive)) return 0;
+        p.alive = lane_and(p.alive, span.valid);
+        if (!lane_any(p.alive)) return 0;
         const Mask later = span.enter.lo > enter.hi;
         const Mask earlier = span.enter.hi < enter.lo;
         const Mask matters = lane_max(span.enter.hi, enter.hi) > start;
-        doubtful = lane_or(doubtful, lane_and(matters, lane_not(lane_or(later, earlier))));
+        p.doubtful = lane_or(p.doubtful, lane_and(matters, lane_not(lane_or(later, earlier))));
         enter.t = lane_select(later, span.enter.t, enter.t);
         enter.error = lane_select(later, span.enter.error, enter.error);
         enter.face = lane_select(later, span.enter.face, enter.face);
-        enter_leaf = lane_select(later, number, enter_leaf);
+        p.at_leaf = lane_select(later, number, p.at_leaf);
         enter.lo = lane_max(span.enter.lo, enter.lo);
         enter.hi = lane_max(span.enter.hi, enter.hi);
         enter.near = lane_max(span.enter.near, enter.near);
-        exit_near = lane_min(span.exit.near, exit_near);
-        exit_lo = lane_min(span.exit.lo, exit_lo);
-        exit_hi = lane_min(span.exit.hi, exit_hi);
+        p.exit_near = lane_min(span.exit.near, p.exit_near);
+        p.exit_lo = lane_min(span.exit.lo, p.exit_lo);
+        p.exit_hi = lane_min(span.exit.hi, p.exit_hi);
     }
-    alive = lane_and(alive, lane_and(exit_hi >= start,
-                                     lane_and(enter.lo <= nearest.limit, enter.lo <= exit_hi)));
-    alive = lane_and(alive, exit_near > start);
-    if (!lane_any(alive)) return 0;
-    doubtful = lane_or(doubtful, enter.hi >= exit_lo);
-    const Mask begun = enter.near <= start;
+    p.alive = lane_and(p.alive, lane_and(p.exit_hi >= start, lane_and(enter.lo <= nearest.limit,
+                                                                      enter.lo <= p.exit_hi)));
+    p.alive = lane_and(p.alive, p.exit_near > start);
+    if (!lane_any(p.alive)) return 0;
+    p.doubtful = lane_or(p.doubtful, enter.hi >= p.exit_lo);
+    p.from_start = enter.near <= start;
+    p.at = enter;
+    p.at.lo = lane_select(p.from_start, start, enter.lo);
+    p.at.hi = lane_select(p.from_start, start, enter.hi);
 
-    // From there on, as long as the place lies in a leaf that is taken away, go on to where that is left.
-    EndInLanes at = enter;
-    at.lo = lane_select(begun, start, enter.lo);
-    at.hi = lane_select(begun, start, enter.hi);
-    Lanes at_leaf = enter_leaf;
-    Mask from_start = begun;
     for (int pass = 0; pass < taken_count; ++pass) {
-        bool moved = false;
-        for (int j = 0; j < taken_count; ++j) {
-            const SpanInLanes& span = taken[j];
-            const Mask before =
-                lane_or(span.enter.lo <= at.hi, lane_and(from_start, span.enter.near <= start));
-            const Mask entered = lane_and(alive, lane_and(span.valid, before));
-            const Mask left =
-                lane_or(lane_and(from_start, span.exit.near <= start), span.exit.hi < at.lo);
-            const Mask within = lane_and(entered, lane_not(left));
-            const Mask goes_on = lane_and(within, span.exit.lo > at.hi);
-            doubtful = lane_or(doubtful, lane_and(within, lane_not(span.exit.lo > at.hi)));
-            if (!lane_any(goes_on)) continue;
-            moved = true;
-            at.t = lane_select(goes_on, span.exit.t, at.t);
-            at.error = lane_select(goes_on, span.exit.error, at.error);
-            at.face = lane_select(goes_on, span.exit.face, at.face);
-            at.lo = lane_select(goes_on, span.exit.lo, at.lo);
-            at.hi = lane_select(goes_on, span.exit.hi, at.hi);
-            at_leaf = lane_select(goes_on, taken_leaf[j], at_leaf);
-            from_start = lane_and(from_start, lane_not(goes_on));
-        }
-        if (!moved) break;
+        Mask moved = p.leave(taken[0], taken_leaf[0], start);
+        for (int j = 1; j < taken_count; ++j)
+            moved = lane_or(moved, p.leave(taken[j], taken_leaf[j], start));
+        if (!lane_any(moved)) break;
     }
-    alive = lane_and(alive, at.lo <= exit_hi);
-    doubtful = lane_or(doubtful, at.hi >= exit_lo);
-    nearest.doubt(lane_and(alive, doubtful), lane_max(enter.lo, start));
-    alive = lane_and(alive, lane_not(doubtful));
-    nearest.offer(lane_and(alive, lane_and(lane_not(from_start), at.lo <= nearest.limit)), at,
-                  at_leaf);
-    return bits(lane_and(alive, from_start));
+    const std::uint32_t cutters = solid.leaves[index].cutters;
+    if (cutters != kNone) {
+        // Of rays that have found something nearer, or have left the core, nothing more needs to be known.
+        const auto going = [&] {
+            return lane_and(
+                p.alive, lane_and(p.at.lo <= p.exit_hi,
+                                  p.at.lo <= lane_min(nearest.t + nearest.error, nearest.limit)));
+        };
+        std::uint32_t searching = bits(going());
+        for (int pass = 0; searching != 0; ++pass) {
+            if (pass == kMostSearches) {
+                p.doubtful = lane_or(p.doubtful, mask_of(searching));
+                break;
+            }
+            searching = search_cutters(w, cutters, first, searching, p, nearest);
+            searching &= bits(going());
+        }
+    }
+    p.alive = lane_and(p.alive, p.at.lo <= p.exit_hi);
+    p.doubtful = lane_or(p.doubtful, p.at.hi >= p.exit_lo);
+    nearest.doubt(lane_and(p.alive, p.doubtful), lane_max(enter.lo, start));
+    p.alive = lane_and(p.alive, lane_not(p.doubtful));
+    nearest.offer(lane_and(p.alive, lane_and(lane_not(p.from_start), p.at.lo <= nearest.limit)),
+                  p.at, p.at_leaf);
+    return bits(lane_and(p.alive, p.from_start));
 }
 
 /// Walks the tree for all active rays; the answers are in w.nearest.
@@ -285,9 +377,10 @@ HWY_INLINE void walk_nearest(Walker<8>& w) {
             for (std::uint32_t k = 0; k < count;) {
                 const std::uint32_t leaf = box.ref() + k;
                 const int size = c.solid->leaves[leaf].unit;
+                const bool is_leaf = size == 1 && c.solid->leaves[leaf].cutters == kNone;
                 const std::uint32_t inside =
-                    size == 1 ? meet_leaf(w, leaf, first, here, nearest)
-                              : meet_product(w, leaf, size, first, here, nearest);
+                    is_leaf ? meet_leaf(w, leaf, first, here, nearest)
+                            : meet_product(w, leaf, size, first, here, nearest);
                 for (std::uint32_t rest = inside << first; rest != 0; rest &= rest - 1) {
                     // Inside one part that is a single leaf is simple enough.
                     const int i = __builtin_ctz(rest);
@@ -335,7 +428,8 @@ HWY_INLINE csg::MaterialId material_shown(const Walker<8>& w, std::uint32_t inde
     if (!look.borrows) return look.material;
     // The ray is in all positive leaves of the product here: the leftmost that has a material lends it.
     csg::MaterialId material = look.material;
-    std::uint32_t first = index;
+    std::uint32_t first = base.groups[base.leaves[index].parent].core;
+    if (first == kNone) first = index;
     while (base.leaves[first].unit == 0) --first;
     std::uint32_t order = kNone;
     for (std::uint32_t k = first; k < first + base.leaves[first].unit; ++k) {

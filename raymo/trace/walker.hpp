@@ -260,8 +260,9 @@ struct Walker {
     Counters<L> counters;
     BoxList<Unopened> unopened;
     std::uint64_t boxes = 0, leaves = 0;
-    Nearest nearest;              ///< packets only
-    BoxList<NearBox> near_boxes;  ///< of the walk of a simple solid
+    Nearest nearest;                          ///< packets only
+    BoxList<NearBox> near_boxes;              ///< of the walk of a simple solid
+    std::vector<std::uint32_t> cutter_nodes;  ///< of a product, yet to be opened
 
     /// Applies all clusters of a ray that end before `horizon`, until it is done.
     void advance(int lane, double horizon);
