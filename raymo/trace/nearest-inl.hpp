@@ -234,15 +234,16 @@ HWY_INLINE std::uint32_t search_cutters(Walker<8>& w, std::uint32_t root, int fi
                 continue;
             }
             w.leaves += node.count[k] * static_cast<std::uint64_t>(lane_count(met));
+            const Mask near = mask_of(met >> first);
             for (std::uint32_t leaf = node.ref[k]; leaf < node.ref[k] + node.count[k]; ++leaf) {
                 SpanInLanes spans[2];
                 Mask trouble;
                 Lanes trouble_lo;
                 const int count = spans_of(w, leaf, first, spans, trouble, trouble_lo);
-                nearest.doubt(lane_and(here, trouble), trouble_lo);
+                nearest.doubt(lane_and(near, trouble), trouble_lo);
                 for (int i = 0; i < count; ++i) {
                     SpanInLanes& span = spans[i];
-                    span.valid = lane_and(span.valid, here);
+                    span.valid = lane_and(span.valid, near);
                     const Mask about = lane_and(span.valid, span.exit.hi >= start);
                     nearest.pass(lane_and(about, span.enter.near <= start), span.enter.hi);
                     nearest.pass(lane_and(about, span.exit.near <= start), span.exit.hi);

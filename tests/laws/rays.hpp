@@ -69,11 +69,14 @@ inline Affine random_map(Random& random, double reach) {
     return map;
 }
 
+/// The first so many kinds of grid_leaf: convex ones, ones that packets compute side by side, all.
+inline constexpr int kConvexLeaves = 5, kLaneLeaves = 6, kAllLeaves = 7;
+
 /// A primitive of size about 1..6 with sizes and places on the half-integer grid, so that faces often coincide.
-inline ModelPtr grid_leaf(Random& random) {
+inline ModelPtr grid_leaf(Random& random, int kinds = kAllLeaves) {
     const auto n = [&](int most) { return 0.5 * (1 + random.below(2 * most)); };
     ModelPtr leaf;
-    switch (random.below(7)) {
+    switch (random.below(kinds)) {
         case 0:
         case 1:
             leaf = block({n(4), n(4), n(4)}, random.chance(0.3));
@@ -130,6 +133,24 @@ inline ModelPtr grid_tree(Random& random, int depth) {
     }
     if (random.chance(0.1)) tree = moved(tree, random_map(random, 2));
     return tree;
+}
+
+/// Differences of many leaves, side by side: of up to 40 that are taken away from one.
+inline ModelPtr drilled(Random& random) {
+    ModelPtr all;
+    for (int parts = 1 + random.below(3); parts > 0; --parts) {
+        ModelPtr part = grid_leaf(random, random.chance(0.2) ? kLaneLeaves : kConvexLeaves);
+        if (random.chance(0.2)) part = meet(part, grid_leaf(random, kConvexLeaves));
+        for (int tools = random.below(random.chance(0.5) ? 5 : 40); tools > 0; --tools) {
+            ModelPtr tool = grid_leaf(random, kLaneLeaves);
+            // Mostly small, so that something is left.
+            if (random.chance(0.7)) tool = moved(tool, scaling({0.25, 0.25, 0.25}));
+            if (random.chance(0.5)) tool = moved(tool, random.in_cube(2));
+            part = cut(part, tool);
+        }
+        all = all ? join(all, part) : part;
+    }
+    return all;
 }
 
 /// Largest coordinate that grid_tree's models reach, about.
