@@ -53,14 +53,18 @@ Mat3 inverse(const Mat3& m) {
 bool is_invertible(const Mat3& m) {
     if (m == Mat3{}) return true;
     Mat3 s;
+    bool is_moderate = true;
     for (std::size_t i = 0; i < 3; ++i) {
         const double scale = binary_size(m.row[i]);
         if (scale == 0.0) return false;
         s.row[i] = m.row[i] / scale;
+        is_moderate = is_moderate && scale > 0x1p-900 && scale < 0x1p900;
     }
     // The computed determinant of a matrix with entries below 2 is off by less than 32 * 2^-53 * 8.
     const double det = determinant(s);
     if (!(std::fabs(det) > 0x1p-45)) return false;
+    // No entry of the inverse is then larger than 8 * 2^45 * 2^900.
+    if (is_moderate) return true;
     const Mat3 inv = inverse(m);
     return is_finite(inv.row[0]) && is_finite(inv.row[1]) && is_finite(inv.row[2]);
 }

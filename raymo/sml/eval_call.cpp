@@ -126,7 +126,7 @@ bool Evaluator::run_builtin(std::uint32_t row, Value* slots, std::size_t count, 
 
 // `first` is the child that is the first argument: 0 for the receiver of a method, 1 behind the callee of a call.
 bool Evaluator::call_planned(const CallPlan& plan, const Node& n, NodeId id, std::uint32_t first,
-                             const Value* receiver, const Value& callee, Value& out) {
+                             Value* receiver, const Value& callee, Value& out) {
     const ValueStack::Mark mark = stack_.mark();
     const std::size_t count =
         plan.is_builtin ? plan.slots : std::max(plan.slots, ast_.functions[plan.callee].frame_size);
@@ -135,7 +135,7 @@ bool Evaluator::call_planned(const CallPlan& plan, const Node& n, NodeId id, std
     for (std::uint32_t i = 0; i < plan.parameter_of.size() && good; ++i) {
         Value& slot = slots[plan.parameter_of[i]];
         if (i == 0 && receiver != nullptr) {
-            slot = *receiver;
+            slot = std::move(*receiver);
             continue;
         }
         NodeId argument = ast_.child(n, first + i);
@@ -151,7 +151,7 @@ bool Evaluator::call_planned(const CallPlan& plan, const Node& n, NodeId id, std
 }
 
 bool Evaluator::call_dynamic(const Value& callee, const Node& n, NodeId id, std::uint32_t first,
-                             const Value* receiver, Value& out) {
+                             Value* receiver, Value& out) {
     if (callee.is(Tag::random) && n.count == first) return call(callee, {}, id, out);
     if (!callee.is(Tag::function) && !callee.is(Tag::builtin)) {
         return fail(ErrorCode::bad_argument, span(n.kind == NodeKind::call ? ast_.child(n, 0) : id),

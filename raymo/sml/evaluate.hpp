@@ -140,10 +140,11 @@ private:
     // Calls (eval_call.cpp)
     bool eval_call(const Node& n, NodeId id, Value& out);
     bool eval_method(const Node& n, NodeId id, Value& out);
+    /// `receiver` is moved into its place among the arguments.
     bool call_planned(const CallPlan& plan, const Node& n, NodeId id, std::uint32_t first,
-                      const Value* receiver, const Value& callee, Value& out);
+                      Value* receiver, const Value& callee, Value& out);
     bool call_dynamic(const Value& callee, const Node& n, NodeId id, std::uint32_t first,
-                      const Value* receiver, Value& out);
+                      Value* receiver, Value& out);
     bool run_builtin(std::uint32_t row, Value* slots, std::size_t count, NodeId id,
                      const CallPlan* plan, std::uint32_t first, Value& out);
     bool enter_function(const FunctionObject& closure, Value* slots, NodeId id, Value& out);

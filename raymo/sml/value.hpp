@@ -111,6 +111,12 @@ public:
         number_ = number;
     }
     void reset() noexcept { clear(); }
+    /// The solid itself; leaves a missing value.
+    [[nodiscard]] csg::Solid take_solid() noexcept {
+        csg::Solid out(std::move(solid_));
+        tag_ = Tag::missing;
+        return out;
+    }
 
     [[nodiscard]] static Value nothing() { return Value(Tag::nothing, 0); }
     [[nodiscard]] static Value boolean(bool b) { return Value(Tag::boolean, b ? 1 : 0); }

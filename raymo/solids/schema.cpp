@@ -17,7 +17,13 @@ std::string shown(double value) {
     return {text.data(), end};
 }
 
-Result<void> check_number(const Schema& schema, const Param& param, double value) {
+bool is_in_range(const Param& param, double value) {
+    return std::isfinite(value) &&
+           (value > param.min || (value == param.min && param.min_included));
+}
+
+/// What is wrong with a value that is not in range.
+Failure range_error(const Schema& schema, const Param& param, double value) {
     const std::string subject = std::string(schema.name) + ": " + std::string(param.words);
     if (!std::isfinite(value)) {
         return Failure(Error{ErrorCode::out_of_range,
@@ -27,22 +33,19 @@ Result<void> check_number(const Schema& schema, const Param& param, double value
                              -1,
                              {}});
     }
-    if (value < param.min || (value == param.min && !param.min_included)) {
-        const std::string relation =
-            param.min_included ? " must be at least " : " must be greater than ";
-        const std::string hint =
-            param.min == 0.0
-                ? "give a " + std::string(param.min_included ? "non-negative " : "positive ") +
-                      std::string(param.words)
-                : std::string();
-        return Failure(Error{ErrorCode::out_of_range,
-                             subject + relation + shown(param.min),
-                             "this is " + shown(value),
-                             hint,
-                             -1,
-                             {}});
-    }
-    return {};
+    const std::string relation =
+        param.min_included ? " must be at least " : " must be greater than ";
+    const std::string hint =
+        param.min == 0.0
+            ? "give a " + std::string(param.min_included ? "non-negative " : "positive ") +
+                  std::string(param.words)
+            : std::string();
+    return Failure(Error{ErrorCode::out_of_range,
+                         subject + relation + shown(param.min),
+                         "this is " + shown(value),
+                         hint,
+                         -1,
+                         {}});
 }
 
 }  // namespace
@@ -51,21 +54,21 @@ Result<void> check(const Schema& schema, std::span<const Argument> arguments) {
     RAYMO_ASSERT(arguments.size() == schema.params.size());
     for (std::size_t i = 0; i < arguments.size(); ++i) {
         const Param& param = schema.params[i];
-        Result<void> result;
+        std::span<const double> numbers;
+        std::array<double, 3> components{};
         if (const double* number = std::get_if<double>(&arguments[i])) {
-            result = check_number(schema, param, *number);
+            numbers = std::span(number, 1);
         } else if (const Vec3* v = std::get_if<Vec3>(&arguments[i])) {
-            for (int axis = 0; axis < 3 && result; ++axis) {
-                result = check_number(schema, param, (*v)[axis]);
-            }
+            components = {v->x, v->y, v->z};
+            numbers = components;
         } else if (const Matrix4* m = std::get_if<Matrix4>(&arguments[i])) {
-            for (std::size_t k = 0; k < m->size() && result; ++k) {
-                result = check_number(schema, param, (*m)[k]);
-            }
+            numbers = *m;
         }
-        if (!result) {
-            result.error().argument = static_cast<int>(i);
-            return result;
+        for (const double number : numbers) {
+            if (is_in_range(param, number)) continue;
+            Failure failure = range_error(schema, param, number);
+            failure.value().argument = static_cast<int>(i);
+            return failure;
         }
     }
     return {};

@@ -177,9 +177,8 @@ bool paint(Call& call, Value& out) {
         out = Value::list(std::move(painted));
         return true;
     }
-    csg::Solid solid;
-    if (!call.solid(0, solid)) return false;
-    return call.result(csg::paint(std::move(solid), call.evaluator().material(m), call.span()),
+    if (!call[0].is(Tag::solid)) return call.wrong_kind(0, "a solid");
+    return call.result(csg::paint(call[0].take_solid(), call.evaluator().material(m), call.span()),
                        out);
 }
 

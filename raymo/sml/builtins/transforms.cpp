@@ -11,9 +11,9 @@
 namespace raymo::sml {
 namespace {
 
-bool apply(Call& call, const Value& shape, const Affine& map, Value& out) {
+bool apply(Call& call, Value& shape, const Affine& map, Value& out) {
     if (shape.is(Tag::solid))
-        return call.result(csg::transform(shape.solid(), map, call.span()), out);
+        return call.result(csg::transform(shape.take_solid(), map, call.span()), out);
     if (shape.is(Tag::transform)) {  // first the one, then the other
         out = Value::object(new TransformObject(map * shape.as<TransformObject>().value));
         return true;
