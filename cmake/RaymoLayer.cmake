@@ -1,11 +1,11 @@
-# raymo_layer(NAME USES layer... [LINKS target...])
+# raymo_layer(NAME USES layer... [LINKS target...] [TESTED_WITH target...])
 #
 # Declares the folder raymo/NAME as one layer: a static library `raymo_NAME` (alias raymo::NAME), its unit tests
 # `unit.NAME` (every *_test.cpp below the folder), the test `layer.NAME`, which fails on an include of a layer that is
 # not among USES, and `headers.NAME`, which compiles every header alone. Sources are found by globbing on purpose: a
 # list would be a second place to register a file.
 function(raymo_layer name)
-  cmake_parse_arguments(ARG "" "" "USES;LINKS" ${ARGN})
+  cmake_parse_arguments(ARG "" "" "USES;LINKS;TESTED_WITH" ${ARGN})
   set(dir ${PROJECT_SOURCE_DIR}/raymo/${name})
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${dir}/*.cpp)
   file(GLOB_RECURSE headers CONFIGURE_DEPENDS ${dir}/*.hpp)
@@ -33,7 +33,7 @@ function(raymo_layer name)
   if(RAYMO_TESTS)
     if(tests)
       add_executable(unit_${name} ${tests} $<TARGET_OBJECTS:raymo_doctest_main>)
-      target_link_libraries(unit_${name} PRIVATE raymo::${name} doctest::doctest)
+      target_link_libraries(unit_${name} PRIVATE raymo::${name} doctest::doctest ${ARG_TESTED_WITH})
       raymo_compile(unit_${name} program)
       add_test(NAME unit.${name} COMMAND unit_${name})
     endif()

@@ -1,78 +1,61 @@
-// Writing PNG with libpng.
+// Writing PNG [PNG03]: a signature and chunks, of which one holds the rows, deflated by libdeflate.
 //
-// Speed: rows are not predicted, and deflated at the first level. On rendered pictures this takes half the time of the
-// usual settings, and backdrops in flat bands make the files about as small.
-//
-// libpng reports errors by longjmp. All of its calls stand in one function that holds nothing with
-// a destructor, so that jumping out of it skips none.
+// Speed: libdeflate's first level, and rows told as differences from the row above, take half the time of libpng's quick
+// settings and make files a third smaller, as rendered pictures change little downwards.
 #include "raymo/formats/png.hpp"
 
-#include <png.h>
+#include <libdeflate.h>
 
-#include <csetjmp>
-#include <cstdlib>
+#include <array>
 #include <cstring>
+#include <memory>
+#include <new>
+#include <string_view>
 
 namespace raymo::formats {
 namespace {
 
-/// Where the bytes go. Grows with malloc so that running out of memory is an answer, not an
-/// exception.
-struct Sink {
-    unsigned char* bytes = nullptr;
-    std::size_t size = 0;
-    std::size_t capacity = 0;
+constexpr std::uint8_t kUp = 2;  ///< filter: each byte less the one above
+constexpr int kLevel = 1;
 
-    Sink() = default;
-    Sink(const Sink&) = delete;
-    Sink& operator=(const Sink&) = delete;
-    ~Sink() { std::free(bytes); }
-
-    bool append(const unsigned char* data, std::size_t count) {
-        if (size + count > capacity) {
-            std::size_t wanted = capacity < 4096 ? 65536 : capacity * 2;
-            if (wanted < size + count) wanted = size + count;
-            void* grown = std::realloc(bytes, wanted);
-            if (grown == nullptr) return false;
-            bytes = static_cast<unsigned char*>(grown);
-            capacity = wanted;
-        }
-        std::memcpy(bytes + size, data, count);
-        size += count;
-        return true;
-    }
-};
-
-void on_write(png_structp png, png_bytep data, png_size_t count) {
-    auto* sink = static_cast<Sink*>(png_get_io_ptr(png));
-    if (!sink->append(data, count)) png_error(png, "out of memory");
+void put_number(std::uint8_t* to, std::uint32_t value) {
+    for (std::size_t i = 0; i < 4; ++i) to[i] = static_cast<std::uint8_t>(value >> (24 - 8 * i));
 }
-void on_flush(png_structp) {}
-// libpng prints by itself otherwise.
-void on_error(png_structp png, png_const_charp) { png_longjmp(png, 1); }
-void on_warning(png_structp, png_const_charp) {}
 
-/// `row` holds one encoded row. Everything the jump could leave half done belongs to `png`, which
-/// the caller destroys.
-bool write_picture(png_structp png, png_infop info, const image::Film& film, png_bytep row,
-                   Sink* sink) {
-    if (setjmp(png_jmpbuf(png)) != 0) return false;
-    png_set_write_fn(png, sink, on_write, on_flush);
-    png_set_IHDR(png, info, static_cast<png_uint_32>(film.width),
-                 static_cast<png_uint_32>(film.height), 8, PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
-                 PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
-    png_set_sRGB_gAMA_and_cHRM(png, info, PNG_sRGB_INTENT_PERCEPTUAL);
-    png_set_filter(png, PNG_FILTER_TYPE_BASE, PNG_FILTER_NONE);
-    png_set_compression_level(png, 1);
-    png_set_compression_buffer_size(png, 65536);
-    png_write_info(png, info);
-    const std::size_t components = 3 * static_cast<std::size_t>(film.width);
+/// Length, name, data, checksum of name and data.
+void put_chunk(Bytes& out, std::string_view name, const std::uint8_t* data, std::size_t size) {
+    const std::size_t at = out.size();
+    out.resize(at + size + 12);
+    std::uint8_t* chunk = out.data() + at;
+    put_number(chunk, static_cast<std::uint32_t>(size));
+    std::memcpy(chunk + 4, name.data(), 4);
+    if (size > 0) std::memcpy(chunk + 8, data, size);
+    put_number(chunk + 8 + size, libdeflate_crc32(0, chunk + 4, size + 4));
+}
+
+/// Memory that is not touched before it is used. Null when there is none.
+struct Freed {
+    void operator()(std::uint8_t* p) const { ::operator delete(p); }
+};
+std::unique_ptr<std::uint8_t, Freed> room(std::size_t size) {
+    return std::unique_ptr<std::uint8_t, Freed>(
+        static_cast<std::uint8_t*>(::operator new(size, std::nothrow)));
+}
+
+/// The rows as they are deflated: each after the number of its filter.
+void filter_rows(const image::Film& film, std::uint8_t* rows, std::uint8_t* codes) {
+    const std::size_t width = 3 * static_cast<std::size_t>(film.width);
+    std::uint8_t* above = codes;
+    std::uint8_t* row = codes + width;
+    std::memset(above, 0, width);
     for (int y = 0; y < film.height; ++y) {
-        image::to_srgb8(&film.rgb[static_cast<std::size_t>(y) * components], components, row);
-        png_write_row(png, row);
+        image::to_srgb8(&film.rgb[static_cast<std::size_t>(y) * width], width, row);
+        *rows++ = kUp;
+        for (std::size_t i = 0; i < width; ++i)
+            rows[i] = static_cast<std::uint8_t>(row[i] - above[i]);
+        rows += width;
+        std::swap(row, above);
     }
-    png_write_end(png, nullptr);
-    return true;
 }
 
 Failure out_of_memory() {
@@ -85,20 +68,47 @@ Result<Bytes> encode_png(const image::Film& film) {
     if (film.width <= 0 || film.height <= 0) {
         return fail(ErrorCode::out_of_range, "png: a picture needs at least one pixel");
     }
-    const std::size_t components = 3 * static_cast<std::size_t>(film.width);
-    if (film.rgb.size() != components * static_cast<std::size_t>(film.height)) {
+    const std::size_t width = 3 * static_cast<std::size_t>(film.width);
+    const auto height = static_cast<std::size_t>(film.height);
+    if (film.rgb.size() != width * height) {
         return fail(ErrorCode::bad_argument, "png: the picture's pixels do not match its size");
     }
-    auto* row = static_cast<png_bytep>(std::malloc(components));
-    png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, on_error, on_warning);
-    png_infop info = png != nullptr ? png_create_info_struct(png) : nullptr;
-    Sink sink;
-    const bool good =
-        row != nullptr && info != nullptr && write_picture(png, info, film, row, &sink);
-    png_destroy_write_struct(&png, &info);
-    std::free(row);
-    if (!good) return out_of_memory();
-    return Bytes(sink.bytes, sink.bytes + sink.size);
+    const std::size_t size = (width + 1) * height;
+    const auto rows = room(size);
+    const auto codes = room(2 * width);
+    const std::unique_ptr<libdeflate_compressor, void (*)(libdeflate_compressor*)> compressor(
+        libdeflate_alloc_compressor(kLevel), libdeflate_free_compressor);
+    if (!rows || !codes || !compressor) return out_of_memory();
+    const std::size_t most = libdeflate_zlib_compress_bound(compressor.get(), size);
+    const auto packed = room(most);
+    if (!packed || most > 0x7fffffffU) return out_of_memory();
+    filter_rows(film, rows.get(), codes.get());
+    const std::size_t count =
+        libdeflate_zlib_compress(compressor.get(), rows.get(), size, packed.get(), most);
+    if (count == 0) return out_of_memory();
+
+    Bytes out{0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
+    out.reserve(count + 256);
+    std::array<std::uint8_t, 13> header{};  // size; 8 bits, red, green and blue
+    put_number(header.data(), static_cast<std::uint32_t>(film.width));
+    put_number(header.data() + 4, static_cast<std::uint32_t>(film.height));
+    header[8] = 8;
+    header[9] = 2;
+    put_chunk(out, "IHDR", header.data(), header.size());
+    // sRGB, and for readers that do not know it what comes nearest: gamma 1 / 2.2, and its primaries.
+    constexpr std::uint8_t kPerceptual = 0;
+    put_chunk(out, "sRGB", &kPerceptual, 1);
+    std::array<std::uint8_t, 4> gamma;
+    put_number(gamma.data(), 45455);
+    put_chunk(out, "gAMA", gamma.data(), gamma.size());
+    constexpr std::array<std::uint32_t, 8> kPrimaries{31270, 32900, 64000, 33000,
+                                                      30000, 60000, 15000, 6000};
+    std::array<std::uint8_t, 32> primaries;
+    for (std::size_t i = 0; i < 8; ++i) put_number(primaries.data() + 4 * i, kPrimaries[i]);
+    put_chunk(out, "cHRM", primaries.data(), primaries.size());
+    put_chunk(out, "IDAT", packed.get(), count);
+    put_chunk(out, "IEND", nullptr, 0);
+    return out;
 }
 
 }  // namespace raymo::formats

@@ -11,7 +11,7 @@ namespace raymo::formats {
 
 using Bytes = std::vector<std::uint8_t>;
 
-/// 8-bit sRGB PNG. Error: io when libpng fails (out of memory).
+/// 8-bit sRGB PNG. Error: io when memory does not suffice.
 [[nodiscard]] Result<Bytes> encode_png(const image::Film& film);
 
 }  // namespace raymo::formats
