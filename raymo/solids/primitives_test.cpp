@@ -116,6 +116,40 @@ TEST_CASE("torus: a spindle is filled") {
     CHECK(k.where({0, 0, 0}, {}) == Where::in);
 }
 
+TEST_CASE("torus: along the circle in the middle of the tube") {
+    // There the extrema of the equation meet in one place.
+    for (const Vec3 d : {Vec3{0, 1, 0}, Vec3{0, -3, 0}, Vec3{0, 1, 1e-9}}) {
+        const auto spans = spans_of(Torus::Kernel(0.75, 0.25), {0.75, 0, 0}, d);
+        REQUIRE(spans.size() == 1);
+        CHECK(spans[0].exit.s * norm(d) == doctest::Approx(std::sqrt(0.4375)));
+        CHECK(spans[0].exit.error * norm(d) < 0x1p-45);
+    }
+}
+
+TEST_CASE("torus: a gap opens where a line comes nearer to the axis than the hole") {
+    const Torus::Kernel k(0.75, 0.25);
+    const auto past = spans_of(k, {0, 0.501, 0}, {1, 0, 0});
+    REQUIRE(past.size() == 1);
+    CHECK(past[0].exit.s == doctest::Approx(std::sqrt(1.0 - 0.501 * 0.501)));
+    const auto across = spans_of(k, {0, 0.499, 0}, {1, 0, 0});
+    REQUIRE(across.size() == 2);
+    CHECK(across[0].exit.s == doctest::Approx(-std::sqrt(0.25 - 0.499 * 0.499)));
+    CHECK(across[1].enter.s == doctest::Approx(std::sqrt(0.25 - 0.499 * 0.499)));
+}
+
+TEST_CASE("torus: a thin ring touched from above by a line that hardly descends") {
+    // Which of the two places it touches lies deeper is less than what |o.d| leaves.
+    const Torus::Kernel k(0.99999900000100006, 9.9999900000100006e-07);
+    const Vec3 d{309557.83582966664, 80116.981442718883, 6.5473518190018279e-06};
+    SpanList spans;
+    k.spans({0.25055503106318622, -0.96810029254046082, 9.9999900000100091e-07, d.x, d.y, d.z,
+             6.79e-16, 2.38e-16, 2.99e-16, dot(d, d)},
+            spans);
+    REQUIRE(spans.size() == 1);
+    CHECK(spans[0].enter.s == doctest::Approx(-4.4232972726739e-09).epsilon(1e-6));
+    CHECK(spans[0].exit.s == doctest::Approx(-4.4222329113949e-09).epsilon(1e-6));
+}
+
 TEST_CASE("halfspace: spans reach to infinity") {
     const Halfspace::Kernel k;
     const auto down = spans_of(k, {0, 0, -5}, {1, 0, 0});
