@@ -42,20 +42,25 @@ std::unique_ptr<std::uint8_t, Freed> room(std::size_t size) {
         static_cast<std::uint8_t*>(::operator new(size, std::nothrow)));
 }
 
-/// The rows as they are deflated: each after the number of its filter.
-void filter_rows(const image::Film& film, std::uint8_t* rows, std::uint8_t* codes) {
+/// Turns the film into the rows as they are deflated, each after the number of its filter, in the film's own memory: they
+/// are shorter than its floats, and memory that was never touched before is dear. `codes`: room for two rows.
+std::uint8_t* filter_rows(image::Film& film, std::uint8_t* codes) {
     const std::size_t width = 3 * static_cast<std::size_t>(film.width);
+    auto* const rows = reinterpret_cast<std::uint8_t*>(film.rgb.data());
+    static_assert(sizeof(float) >= 2);  // a row and its filter are no longer than the floats of it
+    std::uint8_t* out = rows;
     std::uint8_t* above = codes;
     std::uint8_t* row = codes + width;
     std::memset(above, 0, width);
     for (int y = 0; y < film.height; ++y) {
         image::to_srgb8(&film.rgb[static_cast<std::size_t>(y) * width], width, row);
-        *rows++ = kUp;
+        *out++ = kUp;
         for (std::size_t i = 0; i < width; ++i)
-            rows[i] = static_cast<std::uint8_t>(row[i] - above[i]);
-        rows += width;
+            out[i] = static_cast<std::uint8_t>(row[i] - above[i]);
+        out += width;
         std::swap(row, above);
     }
+    return rows;
 }
 
 Failure out_of_memory() {
@@ -64,7 +69,7 @@ Failure out_of_memory() {
 
 }  // namespace
 
-Result<Bytes> encode_png(const image::Film& film) {
+Result<Bytes> encode_png(image::Film film) {
     if (film.width <= 0 || film.height <= 0) {
         return fail(ErrorCode::out_of_range, "png: a picture needs at least one pixel");
     }
@@ -74,17 +79,16 @@ Result<Bytes> encode_png(const image::Film& film) {
         return fail(ErrorCode::bad_argument, "png: the picture's pixels do not match its size");
     }
     const std::size_t size = (width + 1) * height;
-    const auto rows = room(size);
     const auto codes = room(2 * width);
     const std::unique_ptr<libdeflate_compressor, void (*)(libdeflate_compressor*)> compressor(
         libdeflate_alloc_compressor(kLevel), libdeflate_free_compressor);
-    if (!rows || !codes || !compressor) return out_of_memory();
+    if (!codes || !compressor) return out_of_memory();
     const std::size_t most = libdeflate_zlib_compress_bound(compressor.get(), size);
     const auto packed = room(most);
     if (!packed || most > 0x7fffffffU) return out_of_memory();
-    filter_rows(film, rows.get(), codes.get());
+    const std::uint8_t* rows = filter_rows(film, codes.get());
     const std::size_t count =
-        libdeflate_zlib_compress(compressor.get(), rows.get(), size, packed.get(), most);
+        libdeflate_zlib_compress(compressor.get(), rows, size, packed.get(), most);
     if (count == 0) return out_of_memory();
 
     Bytes out{0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};

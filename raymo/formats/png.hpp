@@ -11,7 +11,7 @@ namespace raymo::formats {
 
 using Bytes = std::vector<std::uint8_t>;
 
-/// 8-bit sRGB PNG. Error: io when memory does not suffice.
-[[nodiscard]] Result<Bytes> encode_png(const image::Film& film);
+/// 8-bit sRGB PNG. The film is used up: move it in where it is not needed again. Error: io when memory does not suffice.
+[[nodiscard]] Result<Bytes> encode_png(image::Film film);
 
 }  // namespace raymo::formats

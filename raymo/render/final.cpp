@@ -23,7 +23,7 @@ void draw_samples(const Sitting& s, const Rect& tile, std::uint32_t samples, Ray
                   Wanted&& wanted) {
     std::array<Colour, kTile * kTile> sum{};
     Sampler sampler(
-        s, shader, samples,
+        s, shader, samples, false,
         [&](std::size_t pixel, const Colour& light, const Signature&) { sum[pixel] += light; });
     const auto slot = [&](int x, int y) {
         return static_cast<std::size_t>((y - tile.y0) * kTile + (x - tile.x0));
@@ -93,7 +93,7 @@ bool draw_final(const Sitting& s) {
     Signatures seen(once ? 0 : pixels);
     const auto w = static_cast<std::size_t>(s.film.width);
     const auto draw_middles = [&](const Rect& tile, RayShader& shader) {
-        Sampler sampler(s, shader, 1,
+        Sampler sampler(s, shader, 1, !once,
                         [&](std::size_t pixel, const Colour& light, const Signature& signature) {
                             s.film.set(pixel, light);
                             if (!once) seen[pixel] = signature;

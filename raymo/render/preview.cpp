@@ -51,12 +51,12 @@ struct Lattice {
 
 /// For rays through points of the lattice.
 auto lattice_sampler(const Sitting& s, Lattice& lattice, RayShader& shader) {
-    return Sampler(
-        s, shader, 1, [&lattice](std::size_t index, const Colour& c, const Signature& signature) {
-            lattice.samples[index] = {
-                {static_cast<float>(c.x), static_cast<float>(c.y), static_cast<float>(c.z)},
-                signature};
-        });
+    return Sampler(s, shader, 1, true,
+                   [&lattice](std::size_t index, const Colour& c, const Signature& signature) {
+                       lattice.samples[index] = {{static_cast<float>(c.x), static_cast<float>(c.y),
+                                                  static_cast<float>(c.z)},
+                                                 signature};
+                   });
 }
 template <class Rays>
 void trace_point(const Lattice& lattice, int i, int j, Rays& rays) {
@@ -258,9 +258,10 @@ bool draw_preview(const Sitting& s) {
     choose(wanted, allowance(kAllowanceOfPixels, blocks) / (kBlock * kBlock - 1));
     const auto tiles = tiles_of(blocks_x, blocks_y, kTile);
     return s.crew.run(tiles, 0.6, 1.0, [&](const Rect& tile, RayShader& shader) {
-        Sampler rays(s, shader, 1, [&](std::size_t pixel, const Colour& light, const Signature&) {
-            s.film.set(pixel, light);
-        });
+        Sampler rays(s, shader, 1, false,
+                     [&](std::size_t pixel, const Colour& light, const Signature&) {
+                         s.film.set(pixel, light);
+                     });
         for (int j = tile.y0; j < tile.y1; ++j) {
             for (int i = tile.x0; i < tile.x1; ++i) {
                 const bool refined =

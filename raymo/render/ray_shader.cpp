@@ -76,7 +76,8 @@ void RayShader::answer(const EyeBatch& eyes, Answers& answers) {
             const std::size_t owner = first + static_cast<std::size_t>(i);
             const bool met = (found >> i & 1U) != 0;
             answers.light[owner] = met ? Colour{} : lane_of(spots_.light, i);
-            answers.signature[owner] = met ? signature_of(hits_, i) : Signature{};
+            if (eyes.signatures)
+                answers.signature[owner] = met ? signature_of(hits_, i) : Signature{};
             paths[static_cast<std::size_t>(i)].owner = static_cast<std::uint32_t>(owner);
         }
         if (found == 0) continue;
@@ -182,10 +183,7 @@ void RayShader::shade(const RayPacket& rays, LaneBits lanes, const Paths& paths)
         shade_by_lamp(lamp, rays.d, hits_, spots_.lit, spots_, least, gains_, shadows_);
         if (gains_.lanes == 0) continue;
         if (lamp.shadows) dim(shadows_, -1);
-        for (LaneBits rest = gains_.lanes; rest != 0; rest &= rest - 1) {
-            const int i = lowest_lane(rest);
-            for (int a = 0; a < 3; ++a) spots_.light[a][i] += gains_.light[a][i];
-        }
+        add_gains(gains_, spots_);
     }
     for (LaneBits rest = lanes; rest != 0; rest &= rest - 1) {
         const int i = lowest_lane(rest);

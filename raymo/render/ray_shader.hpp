@@ -52,6 +52,7 @@ struct EyeBatch {
     std::array<std::uint64_t, kMost> seed;
     std::array<std::uint32_t, kMost> sample;  ///< number of the ray among those of its pixel
     std::uint32_t samples = 1;                ///< rays of each pixel
+    bool signatures = true;                   ///< Answers::signature is wanted
 };
 
 /// What they bring.

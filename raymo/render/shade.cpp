@@ -278,6 +278,14 @@ void shade_by_lamp_8(const Lamp& lamp, const double (&view)[3][8], const trace::
     }
 }
 
+void add_gains_8(const Gains& gains, Spots& spots) {
+    for (int first = 0; first < 8; first += kLanes) {
+        const Mask there = mask_at(gains.lanes, first);
+        const Colours light = load(spots.light, first);
+        store(lane_select(there, light + load(gains.light, first), light), spots.light, first);
+    }
+}
+
 void shade_by_lamp_places_8(const Lamp& lamp, const double (&view)[3][8],
                             const trace::HitPacket& hits, int hit, LaneBits lanes,
                             const double (&u)[8], const double (&v)[8], const Spots& spots,
@@ -316,6 +324,7 @@ HWY_EXPORT(shade_surroundings_8);
 HWY_EXPORT(worth_tracing_8);
 HWY_EXPORT(shade_passage_8);
 HWY_EXPORT(shade_by_lamp_8);
+HWY_EXPORT(add_gains_8);
 HWY_EXPORT(shade_by_lamp_places_8);
 
 void eye_rays(const scene::View& view, const double (&x)[8], const double (&y)[8],
@@ -344,6 +353,9 @@ void shade_by_lamp(const Lamp& lamp, const double (&view)[3][8], const trace::Hi
                    trace::RayPacket& shadows) {
     HWY_DYNAMIC_DISPATCH(shade_by_lamp_8)
     (lamp, view, hits, lanes, spots, least, gains, shadows);
+}
+void add_gains(const Gains& gains, Spots& spots) {
+    HWY_DYNAMIC_DISPATCH(add_gains_8)(gains, spots);
 }
 void shade_by_lamp_places(const Lamp& lamp, const double (&view)[3][8],
                           const trace::HitPacket& hits, int hit, LaneBits lanes,

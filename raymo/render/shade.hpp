@@ -76,6 +76,8 @@ struct alignas(64) Gains {
 void shade_by_lamp(const Lamp& lamp, const double (&view)[3][8], const trace::HitPacket& hits,
                    LaneBits lanes, const Spots& spots, double least, Gains& gains,
                    trace::RayPacket& shadows);
+/// Adds to each hit the light of its own lane, of the lanes that get anything.
+void add_gains(const Gains& gains, Spots& spots);
 /// One hit, lane `hit`, and the places (u[i], v[i]) of the lamp for i in `lanes`.
 void shade_by_lamp_places(const Lamp& lamp, const double (&view)[3][8],
                           const trace::HitPacket& hits, int hit, LaneBits lanes,

@@ -90,10 +90,12 @@ struct Sitting {
 template <class Take>
 class Sampler {
 public:
-    /// `samples`: rays of each pixel.
-    Sampler(const Sitting& sitting, RayShader& shader, std::uint32_t samples, Take take)
+    /// `samples`: rays of each pixel. `signatures`: they are wanted.
+    Sampler(const Sitting& sitting, RayShader& shader, std::uint32_t samples, bool signatures,
+            Take take)
         : s_(&sitting), shader_(&shader), take_(std::move(take)) {
         batch_.samples = samples;
+        batch_.signatures = signatures;
     }
     /// A ray through the middle of pixel (x, y).
     void add_middle(int x, int y, std::size_t pixel) {

@@ -97,7 +97,7 @@ int run_render(Session& session) {
 
     {
         const Timer timer(session.stats.write);
-        const Result<formats::Bytes> png = formats::encode_png(film);
+        const Result<formats::Bytes> png = formats::encode_png(std::move(film));
         if (!png) return session.explain(png.error());
         Outputs files(session.console);
         for (const std::string& path : *outputs) {
