@@ -123,7 +123,7 @@ void RayShader::absorb(LaneBits lanes) {
 void RayShader::look_up(LaneBits lanes) {
     const int some = lowest_lane(lanes);
     spots_.same = true;
-    spots_.tinted = spots_.transparent = spots_.mirrors = spots_.slow = 0;
+    spots_.tinted = spots_.transparent = spots_.mirrors = spots_.slow = spots_.dark = 0;
     const bool clear = stage_->scene->has_transparency();
     std::fill_n(spots_.index, 8, 1.0);
     for (LaneBits rest = lanes; rest != 0;) {
@@ -158,6 +158,7 @@ void RayShader::look_up(LaneBits lanes) {
         }
         spots_.same = spots_.same && material == spots_.surface[some];
         if (material->tinted) spots_.tinted |= alike;
+        if (material->specular.none() && max_norm(material->body) == 0.0) spots_.dark |= alike;
         if (!material->transparent && !material->mirror.none()) spots_.mirrors |= alike;
         if (material->facets.kind != scene::Facets::trowbridge_reitz) spots_.slow |= alike;
     }
@@ -173,6 +174,7 @@ void RayShader::shade(const RayPacket& rays, LaneBits lanes, const Paths& paths)
     go_on(refracted_, paths, 1);
     const double least = kUnseen * stage_->min_weight;
     for (const Lamp& lamp : stage_->lamps) {
+        if (spots_.lit == 0) break;
         if (lamp.is_area()) {
             for (LaneBits rest = spots_.lit; rest != 0; rest &= rest - 1) {
                 const int i = lowest_lane(rest);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <cstring>
 #include <limits>
 #include <vector>
 
@@ -39,7 +40,7 @@ public:
         const auto pack = [&](const double(&values)[8]) {
             double* out = columns_[c++].data() + first;
             if (lanes == trace::kAllLanes) {
-                std::copy_n(values, 8, out);
+                std::memcpy(out, values, sizeof values);
             } else {
                 for (LaneBits rest = lanes; rest != 0; rest &= rest - 1)
                     *out++ = values[trace::lowest_lane(rest)];
@@ -55,7 +56,7 @@ public:
         const std::size_t count = std::min<std::size_t>(size(), 8);
         const std::size_t first = size() - count;
         const auto column = [&](std::size_t c, double(&out)[8]) {
-            std::copy_n(columns_[c].data() + first, 8, out);
+            std::memcpy(out, columns_[c].data() + first, sizeof out);
         };
         for (std::size_t a = 0; a < 3; ++a) {
             column(a, rays.o[a]);

@@ -109,7 +109,7 @@ void shade_surroundings_8(const Surroundings& around, const double (&view)[3][8]
     const Colours ambient = everywhere<Lanes>(around.ambient);
     const Colours bottom = everywhere<Lanes>(around.background.bottom);
     const Colours top = everywhere<Lanes>(around.background.top);
-    spots.lit = lanes & (~spots.transparent | hits.entering);
+    spots.lit = lanes & ~spots.dark & (~spots.transparent | hits.entering);
     reflected.lanes = refracted.lanes = 0;
     for (int first = 0; first < 8; first += kLanes) {
         const SurfacesInLanes surface = surfaces_at(spots, first);

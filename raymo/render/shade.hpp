@@ -36,6 +36,7 @@ struct alignas(64) Spots {
     LaneBits tinted;      ///< surfaces that are
     LaneBits transparent;
     LaneBits mirrors;  ///< opaque ones that reflect images
+    LaneBits dark;     ///< reflect no lamp's light
     LaneBits slow;     ///< facets of another distribution than Trowbridge and Reitz's
     bool same;         ///< all lanes have one surface
     // What it gives.

@@ -2,13 +2,13 @@
 // included before).
 template <class R, class M>
 inline void block_spans(const LocalRay<R>& ray, LaneSpans<R, M, 1>& out) {
-    const R length = lane_sqrt(ray.dd);
+    const R least = least_direction(ray);
     Window<R> w;
     open_window(w);
-    clip_slab(w, ray.ox, ray.dx, ray.ex, length, 0.0, 1.0);
-    clip_slab(w, ray.oy, ray.dy, ray.ey, length, 2.0, 3.0);
-    clip_slab(w, ray.oz, ray.dz, ray.ez, length, 4.0, 5.0);
-    close_window(w, ray, length, length > R(0.0), 0, out);
+    clip_slab(w, ray.ox, ray.dx, ray.ex, least, 0.0, 1.0);
+    clip_slab(w, ray.oy, ray.dy, ray.ey, least, 2.0, 3.0);
+    clip_slab(w, ray.oz, ray.dz, ray.ez, least, 4.0, 5.0);
+    close_window(w, ray, ray.dd > R(0.0), 0, out);
 }
 
 // The normal on face `face`, in the place of a point there.

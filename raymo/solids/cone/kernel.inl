@@ -25,7 +25,6 @@ inline void cone_spans(double k, const LocalRay<R>& ray, LaneSpans<R, M, 1>& out
     const R inf = R(std::numeric_limits<double>::infinity());
     const R m = R(0.5 * (1.0 + k));
     const R g = R(0.5 * (1.0 - k));
-    const R length = lane_sqrt(ray.dd);
     const R q0 = m - g * ray.oz;
     const R dq = g * ray.dz;
     const R oo = ray.ox * ray.ox + ray.oy * ray.oy;
@@ -56,8 +55,8 @@ inline void cone_spans(double k, const LocalRay<R>& ray, LaneSpans<R, M, 1>& out
                lane_select(open_below, zero, error), zero);
     clip_exit(w, lane_select(open_above, inf, lane_select(flat, high, low)),
               lane_select(open_above, zero, error), zero);
-    clip_slab(w, ray.oz, ray.dz, ray.ez, length, 1.0, 2.0);
-    close_window(w, ray, length, lane_or(lane_not(flat), d + a * slack > zero), 0, out);
+    clip_slab(w, ray.oz, ray.dz, ray.ez, least_direction(ray), 1.0, 2.0);
+    close_window(w, ray, lane_or(lane_not(flat), d + a * slack > zero), 0, out);
 }
 
 // The normal on face `face`, in the place of a point there: of the mantle, the gradient of sqrt(x^2 + y^2) - q(z), which
