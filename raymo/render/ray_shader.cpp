@@ -69,7 +69,7 @@ void RayShader::answer(const EyeBatch& eyes, Answers& answers) {
         const RayPacket& rays = eyes.rays[first / 8];
         const LaneBits lanes = trace::first_lanes(std::min<std::size_t>(eyes.count - first, 8));
         const LaneBits found = tracer_.first_hits(rays, lanes, hits_);
-        shade_background(stage_->around, rays.d, spots_.light);
+        if (found != lanes) shade_background(stage_->around, rays.d, spots_.light);
         Paths paths;
         for (LaneBits rest = lanes; rest != 0; rest &= rest - 1) {
             const int i = lowest_lane(rest);
