@@ -49,7 +49,7 @@ struct Leaf {
     std::uint32_t parent;  ///< group
     std::uint32_t look;
     std::uint32_t order;            ///< place in the model, left to right
-    std::uint32_t cutters = kNone;  ///< first leaf of a product: root of the tree of its cutters
+    std::uint32_t cutters = kNone;  ///< first leaf of a core: root of the tree of its cutters
     std::uint8_t unit = 1;  ///< first leaf of a unit: how many leaves the unit has; 0: a later one
     bool alone = false;     ///< the only leaf of its part
 };
@@ -82,7 +82,7 @@ struct Group {
     std::int32_t initial = 0;      ///< literals that are true where all leaves are out
     bool negated = false;          ///< as a literal of the parent
     bool taken_away = false;       ///< an odd number of negations from the root
-    std::uint32_t core = kNone;    ///< first leaf of a product that has a tree of cutters
+    std::uint32_t core = kNone;    ///< a leaf of the product's core, if it has a tree of cutters
 };
 
 /// One solid (or, for the base of the scene, all parts side by side) made ready for rays.
@@ -90,7 +90,8 @@ struct CompiledSolid {
     std::uint32_t parts = 1;  ///< groups[0 .. parts) are the roots of the parts
     std::vector<Group> groups;
     std::vector<Leaf> leaves;    ///< in the order of the tree of boxes
-    std::vector<BvhNode> nodes;  ///< nodes[0] is the root of all units; then the trees of cutters
+    std::vector<BvhNode> nodes;  ///< nodes[0] is the root of all
+    std::uint32_t units = 0;     ///< root of the tree of units, without cutters
     Vec3 centre;                 ///< model frame -> normalised frame: (x - centre) * scale
     double scale = 1.0;
     Aabb bounds;          ///< of the leaves, each within its active zone, in the model frame

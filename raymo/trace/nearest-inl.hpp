@@ -78,6 +78,8 @@ struct NearestInLanes {
     Lanes start, limit;
 
     HWY_INLINE void offer(Mask there, const EndInLanes& end, Lanes by) {
+        // Cores that overlap show the same face of a cutter that they share.
+        there = lane_and(there, lane_not(lane_and(leaf == by, lo == end.lo)));
         const Mask closer = lane_and(there, end.lo < lo);
         const Lanes loser = lane_select(closer, lo, end.lo);
         second_lo = lane_select(there, lane_min(second_lo, loser), second_lo);
@@ -285,7 +287,7 @@ HWY_INLINE std::uint32_t meet_product(Walker<8>& w, std::uint32_t index, int siz
         nearest.pass(lane_and(about, span.enter.near <= start), span.enter.hi);
         nearest.pass(lane_and(about, span.exit.near <= start), span.exit.hi);
         const Lanes number(static_cast<double>(leaf));
-        if (!w.data->looks[solid.leaves[leaf].look].literal_negated) {
+        if (w.data->looks[solid.leaves[leaf].look].cuts) {
             taken[taken_count] = span;
             taken_leaf[taken_count++] = number;
             continue;
@@ -356,7 +358,7 @@ HWY_INLINE void walk_nearest(Walker<8>& w) {
     Context<8>& c = w.contexts[0];
     Beam beam = beam_of(c, w.active);
     w.near_boxes.count = 0;
-    w.near_boxes.put({-kInfinity, 0, 0, w.active});
+    w.near_boxes.put({-kInfinity, c.solid->units, 0, w.active});
     while (w.near_boxes.count > 0) {
         const NearBox box = w.near_boxes.last();
         --w.near_boxes.count;
@@ -464,7 +466,9 @@ HWY_INLINE void finish_leaf(const Walker<8>& w, double number, std::uint32_t sam
     const Leaf& leaf = base.leaves[index];
     const Frame& frame = w.data->frames[leaf.frame];
     const csg::MaterialId material = material_shown(w, index);
-    put(leaf.parent < base.parts ? leaf.parent : base.groups[leaf.parent].parent, same, hits.part);
+    std::uint32_t part = leaf.parent;
+    while (part >= base.parts) part = base.groups[part].parent;
+    put(part, same, hits.part);
     put(material, same, hits.material);
     put(Hit::kAir, same, hits.medium_before);
     put(entering ? material : Hit::kAir, same, hits.medium_after);

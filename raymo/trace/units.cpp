@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
+#include <limits>
 #include <span>
 
 namespace raymo::trace {
@@ -13,15 +15,32 @@ constexpr std::size_t kMostTogether = 4;
 /// Leaves of one product, by their number in the order of the model.
 struct Product {
     std::uint32_t group;
-    std::vector<std::uint32_t> core;
-    std::vector<std::uint32_t> cutters;
+    std::vector<std::uint32_t> core;     ///< all of which a place must be in
+    std::vector<std::uint32_t> united;   ///< or any of these
+    std::vector<std::uint32_t> cutters;  ///< and in none of these
+    bool
+        has_union;  ///< of which all leaves may have been left out, as they lie outside of the core
+    std::uint32_t root = kNone;  ///< node of the tree of the cutters
 };
 
 struct Unit {
-    std::uint32_t first;    ///< its leaves are members_[first ...]
-    std::uint32_t size;     ///< so many
-    std::uint32_t product;  ///< if it is the core of one: which
+    std::uint32_t first;  ///< its leaves are members_[first ...]
+    std::uint32_t size;   ///< so many
 };
+
+/// In place of a count, while trees are joined: the child is the root of another tree.
+constexpr std::uint8_t kTree = 0xff;
+
+BvhNode empty_node() {
+    BvhNode node{};
+    for (std::size_t a = 0; a < 3; ++a) {
+        std::fill(std::begin(node.lo[a]), std::end(node.lo[a]),
+                  std::numeric_limits<float>::infinity());
+        std::fill(std::begin(node.hi[a]), std::end(node.hi[a]),
+                  -std::numeric_limits<float>::infinity());
+    }
+    return node;
+}
 
 class Planter {
 public:
@@ -32,13 +51,17 @@ public:
     }
     void plant() {
         sort_out();
+        const std::vector<BvhNode> top = make_top();
+        solid_.nodes = top;
         std::vector<Leaf> planted;
         planted.reserve(solid_.leaves.size());
-        plant_units(planted);
-        for (const Product& product : products_) {
-            if (!product.cutters.empty()) plant_cutters(product, planted);
+        solid_.units = plant_units(planted);
+        for (Product& product : products_) {
+            if (!product.cutters.empty()) product.root = plant_cutters(product, planted);
         }
         solid_.leaves = std::move(planted);
+        for (std::size_t n = 0; n < top.size(); ++n) join_top(solid_.nodes[n]);
+        for (std::size_t u = 0; u < solid_.leaves.size(); ++u) find_cutters(solid_.leaves[u]);
         mark_alone();
     }
 
@@ -55,63 +78,91 @@ private:
                            [&](std::uint32_t l) { return kind(l) != LeafKind::single_rays; });
     }
 
+    /// What each group is: a product of leaves right below a part's root, the union that one starts from, or neither.
+    void find_products() {
+        const auto& groups = solid_.groups;
+        std::vector<std::uint32_t> below(groups.size());  // groups right below each
+        for (std::size_t g = solid_.parts; g < groups.size(); ++g) ++below[groups[g].parent];
+        product_of_.assign(groups.size(), kNone);
+        const auto is_top = [&](std::uint32_t g) {
+            return g >= solid_.parts && groups[g].parent < solid_.parts && groups[g].negated;
+        };
+        for (std::uint32_t g = solid_.parts; g < groups.size(); ++g) {
+            const std::uint32_t top = groups[g].parent;
+            const bool is_union =
+                is_top(top) && below[top] == 1 && below[g] == 0 && groups[g].negated;
+            const bool is_product = is_top(g) && below[g] == 0;
+            if (!is_union && !is_product) continue;
+            product_of_[g] = static_cast<std::uint32_t>(products_.size());
+            if (is_union) product_of_[top] = product_of_[g];
+            products_.push_back({is_union ? top : g, {}, {}, {}, is_union});
+        }
+    }
+
     /// Makes the units.
     void sort_out() {
-        const auto& groups = solid_.groups;
-        // A group that is a product of nothing but leaves, right below a part's root.
-        std::vector<bool> is_product(groups.size());
-        for (std::size_t g = solid_.parts; g < groups.size(); ++g)
-            is_product[g] = groups[g].parent < solid_.parts && groups[g].negated;
-        for (std::size_t g = solid_.parts; g < groups.size(); ++g)
-            is_product[groups[g].parent] = false;
-
+        find_products();
         solid_.simple = true;
         units_.reserve(solid_.leaves.size());
         members_.reserve(solid_.leaves.size());
         unit_boxes_.reserve(solid_.leaves.size());
-        std::vector<std::uint32_t> product_of(groups.size(), kNone);
         for (std::uint32_t i = 0; i < solid_.leaves.size(); ++i) {
             const Leaf& leaf = solid_.leaves[i];
-            if (!is_product[leaf.parent]) {
+            const std::uint32_t number = product_of_[leaf.parent];
+            if (number == kNone) {
                 if (leaf.parent >= solid_.parts || kind(i) == LeafKind::single_rays)
                     solid_.simple = false;
                 add_unit({&i, 1}, boxes_[i]);
                 continue;
             }
-            std::uint32_t& number = product_of[leaf.parent];
-            if (number == kNone) {
-                number = static_cast<std::uint32_t>(products_.size());
-                products_.push_back({leaf.parent, {}, {}});
+            Product& product = products_[number];
+            if (leaf.parent != product.group) {
+                product.united.push_back(i);
+            } else {
+                (data_.looks[leaf.look].cuts ? product.cutters : product.core).push_back(i);
             }
-            const bool cuts = !data_.looks[leaf.look].literal_negated;
-            (cuts ? products_[number].cutters : products_[number].core).push_back(i);
         }
-        for (std::uint32_t p = 0; p < products_.size(); ++p) make_units(p);
+        for (Product& product : products_) make_units(product);
     }
 
-    void add_unit(std::span<const std::uint32_t> leaves, const Boxf& box,
-                  std::uint32_t product = kNone) {
+    void add_unit(std::span<const std::uint32_t> leaves, const Boxf& box) {
         units_.push_back({static_cast<std::uint32_t>(members_.size()),
-                          static_cast<std::uint32_t>(leaves.size()), product});
+                          static_cast<std::uint32_t>(leaves.size())});
         members_.insert(members_.end(), leaves.begin(), leaves.end());
         unit_boxes_.push_back(box);
     }
-    void make_units(std::uint32_t number) {
-        Product& product = products_[number];
+    void make_units(Product& product) {
         std::vector<std::uint32_t> all = product.core;
         all.insert(all.end(), product.cutters.begin(), product.cutters.end());
-        const bool core_fits =
-            !product.core.empty() && product.core.size() <= kMostInUnit && all_convex(product.core);
-        if (core_fits && all.size() <= kMostTogether && all_convex(all)) {
+        const bool can_be_cut = all_in_lanes(product.cutters) && !product.cutters.empty();
+        const std::size_t most = product.cutters.empty() ? kMostInUnit : kMostTogether;
+        if (!product.has_union && !product.core.empty() && all.size() <= most && all_convex(all)) {
             product.cutters.clear();
             add_unit(all, box_of(all));
-        } else if (core_fits && all_in_lanes(all)) {
-            add_unit(product.core, box_of(all), number);
+        } else if (!product.has_union && !product.core.empty() &&
+                   product.core.size() <= kMostInUnit && all_convex(product.core) && can_be_cut) {
+            add_unit(product.core, box_of(product.core));
+        } else if (!product.united.empty() && product.core.empty() && all_convex(product.united) &&
+                   can_be_cut && lend_alike(product)) {
+            // (a + b) - c = (a - c) + (b - c).
+            for (const std::uint32_t& leaf : product.united) add_unit({&leaf, 1}, boxes_[leaf]);
         } else {
             product.cutters.clear();
             solid_.simple = false;
+            all.insert(all.end(), product.united.begin(), product.united.end());
             for (const std::uint32_t& leaf : all) add_unit({&leaf, 1}, boxes_[leaf]);
         }
+    }
+    /// Whether a cutter that shows the material of what it cuts shows the same wherever it cuts.
+    [[nodiscard]] bool lend_alike(const Product& product) const {
+        const auto look = [&](std::uint32_t leaf) -> const Look& {
+            return data_.looks[solid_.leaves[leaf].look];
+        };
+        const csg::MaterialId material = look(product.united.front()).material;
+        return std::all_of(product.united.begin(), product.united.end(),
+                           [&](std::uint32_t l) { return look(l).material == material; }) ||
+               std::none_of(product.cutters.begin(), product.cutters.end(),
+                            [&](std::uint32_t l) { return look(l).borrows; });
     }
     [[nodiscard]] Boxf box_of(const std::vector<std::uint32_t>& leaves) const {
         Boxf box = boxes_[leaves.front()];
@@ -119,26 +170,76 @@ private:
         return box;
     }
 
-    void plant_units(std::vector<Leaf>& planted) {
+    /// The nodes above the tree of the units and those of the cutters, by which single rays find both. As children they have
+    /// the numbers of the trees: 0 for the units, 1 + p for product p.
+    [[nodiscard]] std::vector<BvhNode> make_top() const {
+        std::vector<Boxf> boxes;
+        std::vector<std::uint32_t> trees;
+        for (std::uint32_t p = 0; p < products_.size(); ++p) {
+            if (products_[p].cutters.empty()) continue;
+            boxes.push_back(box_of(products_[p].cutters));
+            trees.push_back(1 + p);
+        }
+        if (boxes.empty()) return {};
+        Boxf all = unit_boxes_.front();
+        for (const Boxf& box : unit_boxes_) all = hull(all, box);
+        boxes.push_back(all);
+        trees.push_back(0);
+        Bvh bvh = build_bvh(boxes);
+        const std::size_t count = bvh.nodes.size();
+        for (std::size_t n = 0; n < count; ++n) {
+            for (int c = 0; c < BvhNode::kWidth; ++c) {
+                const std::uint8_t size = bvh.nodes[n].count[c];
+                if (size == 0) continue;
+                const std::uint32_t first = bvh.nodes[n].ref[c];
+                bvh.nodes[n].count[c] = kTree;
+                bvh.nodes[n].ref[c] = trees[bvh.order[first]];
+                if (size == 1) continue;
+                // A range of several: a node of their own.
+                BvhNode node = empty_node();
+                for (std::uint8_t k = 0; k < size; ++k) {
+                    const std::uint32_t item = bvh.order[first + k];
+                    for (std::size_t a = 0; a < 3; ++a) {
+                        node.lo[a][k] = boxes[item].lo[a];
+                        node.hi[a][k] = boxes[item].hi[a];
+                    }
+                    node.count[k] = kTree;
+                    node.ref[k] = trees[item];
+                }
+                bvh.nodes[n].count[c] = 0;
+                bvh.nodes[n].ref[c] = static_cast<std::uint32_t>(bvh.nodes.size());
+                bvh.nodes.push_back(node);
+            }
+        }
+        return std::move(bvh.nodes);
+    }
+    /// Puts the roots of the trees in the place of their numbers.
+    void join_top(BvhNode& node) const {
+        for (int c = 0; c < BvhNode::kWidth; ++c) {
+            if (node.count[c] != kTree) continue;
+            node.count[c] = 0;
+            node.ref[c] = node.ref[c] == 0 ? solid_.units : products_[node.ref[c] - 1].root;
+        }
+    }
+
+    std::uint32_t plant_units(std::vector<Leaf>& planted) {
         const Bvh tree = build_bvh(unit_boxes_);
         std::vector<std::uint32_t> place;  // of each unit's first leaf, in the order of the tree
         place.reserve(units_.size() + 1);
         for (const std::uint32_t u : tree.order) {
             const Unit& unit = units_[u];
-            const auto first = static_cast<std::uint32_t>(planted.size());
-            place.push_back(first);
+            place.push_back(static_cast<std::uint32_t>(planted.size()));
             for (std::uint32_t k = 0; k < unit.size; ++k) {
                 planted.push_back(solid_.leaves[members_[unit.first + k]]);
                 planted.back().unit =
                     k == 0 ? static_cast<std::uint8_t>(unit.size) : std::uint8_t{0};
             }
-            if (unit.product != kNone) solid_.groups[products_[unit.product].group].core = first;
         }
         place.push_back(static_cast<std::uint32_t>(planted.size()));
-        append(tree, [&](std::uint32_t unit) { return place[unit]; });
+        return append(tree, [&](std::uint32_t unit) { return place[unit]; });
     }
 
-    void plant_cutters(const Product& product, std::vector<Leaf>& planted) {
+    std::uint32_t plant_cutters(const Product& product, std::vector<Leaf>& planted) {
         std::vector<Boxf> boxes;
         boxes.reserve(product.cutters.size());
         for (const std::uint32_t leaf : product.cutters) boxes.push_back(boxes_[leaf]);
@@ -146,14 +247,23 @@ private:
         const auto first = static_cast<std::uint32_t>(planted.size());
         for (const std::uint32_t i : tree.order)
             planted.push_back(solid_.leaves[product.cutters[i]]);
-        planted[solid_.groups[product.group].core].cutters =
-            static_cast<std::uint32_t>(solid_.nodes.size());
-        append(tree, [first](std::uint32_t leaf) { return first + leaf; });
+        return append(tree, [first](std::uint32_t leaf) { return first + leaf; });
     }
 
-    /// Adds a tree to the nodes. place(i): the leaf where range number i begins.
+    /// Tells the first leaf of a unit where the cutters of its product are, and the product where its core is.
+    void find_cutters(Leaf& leaf) {
+        const std::uint32_t number = product_of_[leaf.parent];
+        if (number == kNone || leaf.unit == 0) return;
+        const Product& product = products_[number];
+        if (product.root == kNone || data_.looks[leaf.look].cuts) return;
+        leaf.cutters = product.root;
+        solid_.groups[product.group].core =
+            static_cast<std::uint32_t>(&leaf - solid_.leaves.data());
+    }
+
+    /// Adds a tree to the nodes, and returns its root. place(i): the leaf where range number i begins.
     template <class Place>
-    void append(const Bvh& tree, Place&& place) {
+    std::uint32_t append(const Bvh& tree, Place&& place) {
         const auto base = static_cast<std::uint32_t>(solid_.nodes.size());
         for (BvhNode node : tree.nodes) {
             for (int c = 0; c < BvhNode::kWidth; ++c) {
@@ -168,6 +278,7 @@ private:
             }
             solid_.nodes.push_back(node);
         }
+        return base;
     }
 
     void mark_alone() {
@@ -190,6 +301,7 @@ private:
     std::vector<std::uint32_t> members_;  ///< leaves of the units, in the order of the model
     std::vector<Boxf> unit_boxes_;
     std::vector<Product> products_;
+    std::vector<std::uint32_t> product_of_;  ///< by group: number of the product, or kNone
 };
 
 }  // namespace

@@ -64,14 +64,8 @@ HWY_INLINE void walk_all(Walker<L>& w) {
         if (box.count == 0) {
             open_node(w, box, lanes);
         } else {
-            for (std::uint32_t k = 0; k < box.count; ++k) {
+            for (std::uint32_t k = 0; k < box.count; ++k)
                 open_leaf(w, box.context, box.ref + k, lanes);
-                const std::uint32_t cutters =
-                    w.contexts[box.context].solid->leaves[box.ref + k].cutters;
-                if (cutters == kNone) continue;
-                w.unopened.make_room(1);
-                w.unopened.put({box.t, cutters, box.context, 0, static_cast<std::uint8_t>(lanes)});
-            }
         }
     }
     for (std::uint32_t rest = w.active; rest != 0; rest &= rest - 1) {

@@ -135,12 +135,14 @@ inline ModelPtr grid_tree(Random& random, int depth) {
     return tree;
 }
 
-/// Differences of many leaves, side by side: of up to 40 that are taken away from one.
+/// Differences of many leaves, side by side: of up to 40 that are taken away from one, or from a union.
 inline ModelPtr drilled(Random& random) {
     ModelPtr all;
     for (int parts = 1 + random.below(3); parts > 0; --parts) {
         ModelPtr part = grid_leaf(random, random.chance(0.2) ? kLaneLeaves : kConvexLeaves);
         if (random.chance(0.2)) part = meet(part, grid_leaf(random, kConvexLeaves));
+        for (int more = random.chance(0.4) ? random.below(5) : 0; more > 0; --more)
+            part = join(part, grid_leaf(random, kConvexLeaves));
         for (int tools = random.below(random.chance(0.5) ? 5 : 40); tools > 0; --tools) {
             ModelPtr tool = grid_leaf(random, kLaneLeaves);
             // Mostly small, so that something is left.
