@@ -30,11 +30,7 @@ void ValueStack::pop(Value* first, std::size_t count, Mark before) {
     used_ = before.used;
 }
 
-bool Evaluator::stack_left(NodeId site) {
-    const char* const here = static_cast<const char*>(__builtin_frame_address(0));
-    const auto used =
-        static_cast<std::size_t>(stack_base_ > here ? stack_base_ - here : here - stack_base_);
-    if (depth_ <= host_.limits.call_depth && used <= kMaxStackBytes) return true;
+bool Evaluator::too_deep(NodeId site) {
     return fail(
         ErrorCode::limit, span(site),
         depth_ > host_.limits.call_depth
@@ -186,6 +182,10 @@ bool Evaluator::eval_call(const Node& n, NodeId id, Value& out) {
     if (n.slot != kNoPlan) {
         const CallPlan& plan = ast_.plans[n.slot];
         if (plan.is_builtin) return call_planned(plan, n, id, 1, nullptr, {}, out);
+        // A function that can be no other stays where it is while it runs.
+        if (plan.is_known && name.place == Place::global && globals_[name.slot].is(Tag::function)) {
+            return call_planned(plan, n, id, 1, nullptr, globals_[name.slot], out);
+        }
         Value callee;
         if (!eval_name(name, ast_.child(n, 0), callee)) return false;
         return call_planned(plan, n, id, 1, nullptr, callee, out);

@@ -123,7 +123,7 @@ bool Evaluator::eval_name(const Node& n, NodeId id, Value& out) {
 
 bool Evaluator::condition(NodeId id, std::string_view what, bool& out) {
     Value value;
-    if (!eval(id, value)) return false;
+    if (!operand(id, value)) return false;
     if (!value.is(Tag::boolean)) {
         return fail(ErrorCode::bad_argument, span(id), fmt::format("{} needs true or false", what),
                     value.is(Tag::number) ? "compare it: x != 0" : "",

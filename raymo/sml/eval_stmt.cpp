@@ -157,8 +157,13 @@ Evaluator::Flow Evaluator::exec(NodeId id) {
         case NodeKind::var: {
             const NodeId source = ast_.child(n, 1);
             Value value;
-            if (!eval(source, value)) return Flow::failed;
-            return flow_of(bind(ast_.child(n, 0), std::move(value), source));
+            if (!operand(source, value)) return Flow::failed;
+            const NodeId pattern = ast_.child(n, 0);
+            if (ast_[pattern].kind == NodeKind::binding) {
+                store(ast_[pattern], std::move(value));
+                return Flow::normal;
+            }
+            return flow_of(bind(pattern, std::move(value), source));
         }
         case NodeKind::assign:
             return flow_of(exec_assign(n));
@@ -186,7 +191,7 @@ Evaluator::Flow Evaluator::exec(NodeId id) {
                 return Flow::returned;
             } else {
                 Value value;
-                if (!eval(ast_.child(n, 0), value)) return Flow::failed;
+                if (!operand(ast_.child(n, 0), value)) return Flow::failed;
                 returned_ = std::move(value);
                 return Flow::returned;
             }
@@ -248,7 +253,7 @@ bool Evaluator::exec_assign(const Node& n) {
     const NodeId target = ast_.child(n, 0);
     const NodeId source = ast_.child(n, 1);
     Value value;
-    if (!eval(source, value)) return false;
+    if (!operand(source, value)) return false;
     if (n.op != Operator::none) {
         Value before;
         Value after;

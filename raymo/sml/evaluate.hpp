@@ -116,6 +116,8 @@ private:
                 return true;
             }
         }
+        if (n.kind == NodeKind::binary) return eval_binary(n, id, out);
+        if (n.kind == NodeKind::chain) return eval_chain(n, id, out);
         return eval(id, out);
     }
     bool eval_name(const Node& n, NodeId id, Value& out);
@@ -176,7 +178,16 @@ private:
     [[nodiscard]] std::string part_name(NodeId node) const;
 
     bool check_limits(NodeId site);
-    [[nodiscard]] bool stack_left(NodeId site);
+    /// False, with an error, when calls are nested too deep.
+    [[nodiscard]] bool stack_left(NodeId site) {
+        const char* const here = static_cast<const char*>(__builtin_frame_address(0));
+        const auto used =
+            static_cast<std::size_t>(stack_base_ > here ? stack_base_ - here : here - stack_base_);
+        if (depth_ <= host_.limits.call_depth && used <= kMaxStackBytes) [[likely]]
+            return true;
+        return too_deep(site);
+    }
+    bool too_deep(NodeId site);
     void collect_docs();
 
     Program& program_;

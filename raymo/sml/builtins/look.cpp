@@ -149,16 +149,17 @@ bool wood(Call& call, Value& out) {
 
 // s.paint(material), s.paint(colour)
 bool paint(Call& call, Value& out) {
-    Material m;
+    Material own;
+    const Material* look = &own;
     if (call.has(1) && call[1].is(Tag::material)) {
-        m = call[1].as<MaterialObject>().value;
+        look = &call[1].as<MaterialObject>().value;
     } else if (call.has(1) && (call[1].is(Tag::builtin) || call[1].is(Tag::function))) {
         return call.fail(1, ErrorCode::bad_argument, "`look` must be a material or a colour",
                          "call it: glass()", "this is a function");
     } else {
-        m = scene::default_material();
-        m.name.clear();
-        if (!call.colour(1, m.color, m.name)) return false;
+        own = scene::default_material();
+        own.name.clear();
+        if (!call.colour(1, own.color, own.name)) return false;
     }
     if (call[0].is(Tag::list)) {
         const std::vector<Value> items = call[0].items();
@@ -169,7 +170,7 @@ bool paint(Call& call, Value& out) {
                                  fmt::format("this list has {} in it", kind_text(items[i])));
             }
             if (!call.result(
-                    csg::paint(items[i].solid(), call.evaluator().material(m), call.span()),
+                    csg::paint(items[i].solid(), call.evaluator().material(*look), call.span()),
                     painted[i])) {
                 return false;
             }
@@ -178,8 +179,8 @@ bool paint(Call& call, Value& out) {
         return true;
     }
     if (!call[0].is(Tag::solid)) return call.wrong_kind(0, "a solid");
-    return call.result(csg::paint(call[0].take_solid(), call.evaluator().material(m), call.span()),
-                       out);
+    return call.result(
+        csg::paint(call[0].take_solid(), call.evaluator().material(*look), call.span()), out);
 }
 
 enum LightArgument : std::size_t {
