@@ -1,6 +1,7 @@
 #include "raymo/trace/bvh.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstring>
@@ -64,10 +65,23 @@ struct Range {
     [[nodiscard]] std::uint32_t size() const { return end - begin; }
 };
 
-/// The bins of one axis. Those without refs have no bounds.
+/// The bins of one axis.
 struct Bins {
     std::array<Bounds, kBins> bounds;
     std::array<std::uint32_t, kBins> count;
+    std::uint32_t used;  ///< a bit for each bin that holds refs; the others hold nothing of meaning
+
+    void add(std::size_t b, Four lo, Four hi) {
+        const std::uint32_t bit = 1U << b;
+        if ((used & bit) != 0) {
+            bounds[b].add(lo, hi);
+            ++count[b];
+        } else {
+            bounds[b] = {lo, hi};
+            count[b] = 1;
+            used |= bit;
+        }
+    }
 };
 
 class Builder {
@@ -169,29 +183,29 @@ private:
             if (to_bin[axis] == 0.0F) continue;
             const Bins& bins = bins_[axis];
             // Planes beside an empty bin cost what their neighbours cost.
+            std::array<std::uint8_t, kBins> order;
+            std::size_t bin_count = 0;
+            for (std::uint32_t left = bins.used; left != 0; left &= left - 1) {
+                order[bin_count++] = static_cast<std::uint8_t>(std::countr_zero(left));
+            }
             std::array<float, kBins> right_cost;
             Bounds acc;
             std::uint32_t count = 0;
-            float cost = 0.0F;
-            for (std::size_t b = kBins - 1; b > 0; --b) {
-                if (bins.count[b] > 0) {
-                    acc.add(bins.bounds[b]);
-                    count += bins.count[b];
-                    cost = acc.half_area() * static_cast<float>(count);
-                }
-                right_cost[b] = cost;
+            for (std::size_t i = bin_count - 1; i > 0; --i) {
+                acc.add(bins.bounds[order[i]]);
+                count += bins.count[order[i]];
+                right_cost[i] = acc.half_area() * static_cast<float>(count);
             }
             acc = {};
             count = 0;
-            for (std::size_t b = 0; b + 1 < kBins; ++b) {
-                if (bins.count[b] == 0) continue;
-                acc.add(bins.bounds[b]);
-                count += bins.count[b];
-                cost = acc.half_area() * static_cast<float>(count) + right_cost[b + 1];
-                if (count < n && cost < best) {
+            for (std::size_t i = 0; i + 1 < bin_count; ++i) {
+                acc.add(bins.bounds[order[i]]);
+                count += bins.count[order[i]];
+                const float cost = acc.half_area() * static_cast<float>(count) + right_cost[i + 1];
+                if (cost < best) {
                     best = cost;
                     best_axis = axis;
-                    best_plane = static_cast<int>(b);
+                    best_plane = order[i];
                 }
             }
         }
@@ -227,7 +241,7 @@ private:
             const float extent = range.centres.hi[axis] - range.centres.lo[axis];
             const float scale = static_cast<float>(kBins) * 0.99999F / extent;
             if (extent > 0.0F && std::isfinite(scale)) to_bin[axis] = scale;
-            bins_[axis].count = {};
+            bins_[axis].used = 0;
         }
         for (std::uint32_t i = range.begin; i < range.end; ++i) {
             const Four lo = refs_[i].lo();
@@ -235,12 +249,7 @@ private:
             const auto place =
                 __builtin_convertvector((lo + hi - range.centres.lo) * to_bin, FourWhole);
             for (std::size_t axis = 0; axis < 3; ++axis) {
-                const auto b = static_cast<std::size_t>(place[axis]);
-                if (bins_[axis].count[b]++ == 0) {
-                    bins_[axis].bounds[b] = {lo, hi};
-                } else {
-                    bins_[axis].bounds[b].add(lo, hi);
-                }
+                bins_[axis].add(static_cast<std::size_t>(place[axis]), lo, hi);
             }
         }
         return to_bin;
