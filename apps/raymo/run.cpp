@@ -7,6 +7,7 @@
 
 #include "apps/raymo/commands/commands.hpp"
 #include "apps/raymo/system/executor.hpp"
+#include "apps/raymo/system/large_pages.hpp"
 #include "apps/raymo/system/memory_limit.hpp"
 #include "apps/raymo/text.hpp"
 #include "apps/raymo/vocabulary.hpp"
@@ -120,8 +121,9 @@ int run(const Args& args, Console& console) {
     if (!options) return refuse(console, options.error());
     console.color = wants_color(options->color, console);
     console.quiet = options->quiet;
-    limit_memory(options->memory_limit.value_or(default_memory_limit()),
-                 options->threads > 0 ? options->threads : available_processors());
+    const double limit = options->memory_limit.value_or(default_memory_limit());
+    use_large_pages(limit);
+    limit_memory(limit, options->threads > 0 ? options->threads : available_processors());
     return console.finish(run_command(*options, console));
 }
 

@@ -78,6 +78,9 @@ Result<std::uint32_t> Flattener::compile(std::span<const csg::Solid> parts, int 
     make_groups(work, out);
     normalise(work, out);
     if (out.leaves.empty() && depth > 0) return kNone;
+    // The tree may have their room.
+    work.items = {};
+    work.pending = {};
 
     plant_trees(out, work.boxes, data_);
     data_.solids.push_back(std::move(out));
