@@ -20,12 +20,13 @@ void use_large_pages([[maybe_unused]] double limit) {
     if (stretch < 8 * kMiB) return;
     // Vectors up to this size live in the stretch too and leave their room to others; larger ones are mapped by
     // themselves and given back.
-    mallopt(M_MMAP_THRESHOLD, kMiB);
-    mallopt(M_TRIM_THRESHOLD, stretch);
+    constexpr int kLargestShared = kMiB / 2;
+    mallopt(M_MMAP_THRESHOLD, kLargestShared);
+    mallopt(M_TRIM_THRESHOLD, 4 * stretch);  // the stretch itself is not to be given back
     mallopt(M_TOP_PAD, stretch);
     const auto begin = reinterpret_cast<std::uintptr_t>(sbrk(0));
     // More than what is left of the heap, so that it must grow.
-    if (void* block = std::malloc(kMiB / 2)) std::free(block);
+    if (void* block = std::malloc(kLargestShared - 4096)) std::free(block);
     const auto end = reinterpret_cast<std::uintptr_t>(sbrk(0));
     mallopt(M_TOP_PAD, kMiB / 8);  // as it was: other threads have heaps of their own
     // Small models stay below the first large page.
