@@ -8,9 +8,11 @@
 // code, and c <= 255), so a class holds at most one threshold.
 #include "raymo/image/film.hpp"
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
+#include <cstring>
 #include <limits>
 
 namespace raymo::image {
@@ -57,7 +59,17 @@ private:
 void to_srgb8(const float* linear, std::size_t count, std::uint8_t* out) {
     static const Encoder kEncoder;
     const Encoder& encode = kEncoder;
-    for (std::size_t i = 0; i < count; ++i) out[i] = encode(linear[i]);
+    constexpr std::size_t kPixel = 3;
+    std::array<std::uint8_t, kPixel> codes{};  // of the pixel before
+    std::size_t i = 0;
+    for (; i + kPixel <= count; i += kPixel) {
+        // Backdrops and plain surfaces go on from pixel to pixel.
+        if (i == 0 || std::memcmp(linear + i, linear + i - kPixel, kPixel * sizeof *linear) != 0) {
+            for (std::size_t k = 0; k < kPixel; ++k) codes[k] = encode(linear[i + k]);
+        }
+        std::copy(codes.begin(), codes.end(), out + i);
+    }
+    for (; i < count; ++i) out[i] = encode(linear[i]);
 }
 
 std::vector<std::uint8_t> to_srgb8(const Film& film) {
