@@ -292,7 +292,7 @@ void RayShader::filter(RayPacket& shadows, int hit) {
             transmission[i] = material.transmission;
         }
         going &= gains_.lanes;
-        if (going != 0) shade_passage(met, shadows.d, transmission, ratio, left);
+        if (going != 0) shade_passage(met, shadows.d, going, transmission, ratio, left);
         for (LaneBits rest = going; rest != 0; rest &= rest - 1) {
             const int i = lowest_lane(rest);
             if (left[i] < kDark) gains_.lanes &= ~(1U << i);

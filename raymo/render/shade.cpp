@@ -191,13 +191,14 @@ LaneBits worth_tracing_8(const Onward& onward, double least) {
     return worth & onward.lanes;
 }
 
-void shade_passage_8(const trace::HitPacket& hits, const double (&view)[3][8],
+void shade_passage_8(const trace::HitPacket& hits, const double (&view)[3][8], LaneBits lanes,
                      const double (&transmission)[8], const double (&ratio)[8], double (&left)[8]) {
     for (int first = 0; first < 8; first += kLanes) {
         const Lanes cosine = lane_abs(dot(load(hits.normal, first), load(view, first)));
         const Lanes passed =
             load(transmission + first) * (Lanes(1.0) - fresnel_of(cosine, load(ratio + first)));
-        store(load(left + first) * passed, left + first);
+        const Lanes before = load(left + first);
+        store(lane_select(mask_at(lanes, first), before * passed, before), left + first);
     }
 }
 
@@ -344,9 +345,9 @@ void shade_surroundings(const Surroundings& around, const double (&view)[3][8],
 LaneBits worth_tracing(const Onward& onward, double least) {
     return HWY_DYNAMIC_DISPATCH(worth_tracing_8)(onward, least);
 }
-void shade_passage(const trace::HitPacket& hits, const double (&view)[3][8],
+void shade_passage(const trace::HitPacket& hits, const double (&view)[3][8], LaneBits lanes,
                    const double (&transmission)[8], const double (&ratio)[8], double (&left)[8]) {
-    HWY_DYNAMIC_DISPATCH(shade_passage_8)(hits, view, transmission, ratio, left);
+    HWY_DYNAMIC_DISPATCH(shade_passage_8)(hits, view, lanes, transmission, ratio, left);
 }
 void shade_by_lamp(const Lamp& lamp, const double (&view)[3][8], const trace::HitPacket& hits,
                    LaneBits lanes, const Spots& spots, double least, Gains& gains,

@@ -63,8 +63,8 @@ void shade_surroundings(const Surroundings& around, const double (&view)[3][8],
 [[nodiscard]] LaneBits worth_tracing(const Onward& onward, double least);
 
 /// What transparent surfaces that are met at `hits` leave of light that goes straight on along `view`: multiplies `left` by
-/// transmission * (1 - fresnel(the cosine, ratio)) for all lanes. `ratio` >= 1.
-void shade_passage(const trace::HitPacket& hits, const double (&view)[3][8],
+/// transmission * (1 - fresnel(the cosine, ratio)) in the lanes named. `ratio` >= 1.
+void shade_passage(const trace::HitPacket& hits, const double (&view)[3][8], LaneBits lanes,
                    const double (&transmission)[8], const double (&ratio)[8], double (&left)[8]);
 
 /// What hits get from a lamp that nothing hides.
