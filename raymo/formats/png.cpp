@@ -1,7 +1,7 @@
 // Writing PNG [PNG03]: a signature and chunks, of which some hold the rows, deflated by ISA-L.
 //
-// Speed: ISA-L's first level, on rows told as differences from the row above, takes an eighth of the time of libpng's quick
-// settings and makes files a quarter smaller, as rendered pictures change little downwards.
+// Speed: ISA-L's first level takes a fifth of the time of zlib's. Rows are told as differences from the row above, as rendered
+// pictures change little downwards: that makes files a quarter smaller.
 #include "raymo/formats/png.hpp"
 
 #include <isa-l.h>

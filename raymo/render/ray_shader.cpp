@@ -130,13 +130,13 @@ void RayShader::look_up(LaneBits lanes) {
         // All that met one material between the same media.
         const int i = lowest_lane(rest);
         LaneBits alike = 0;
-        for (int k = i; k < 8; ++k) {
+        for (LaneBits others = rest; others != 0; others &= others - 1) {
+            const int k = lowest_lane(others);
             const bool is = hits_.material[k] == hits_.material[i] &&
                             hits_.medium_before[k] == hits_.medium_before[i] &&
                             hits_.medium_after[k] == hits_.medium_after[i];
             alike |= (is ? 1U : 0U) << k;
         }
-        alike &= rest;
         rest &= ~alike;
         const Surface* material = &surfaces_[hits_.material[i]];
         if (clear && material->transparent) {

@@ -7,7 +7,7 @@
 //     the mirror image and the refracted image                           (rays that are traced next)
 // Rays to be traced next wait on stacks with the weight that they will have in the picture, so there is no recursion; they
 // are traced in packets, as soon as there are enough of them.
-// A ray that starts on a surface names that surface instead of starting a little above it; together
+// A ray that starts on a surface says so, and how exactly, instead of starting a little above it; together
 // with exact normals this leaves neither acne nor light leaks. A lamp behind a surface does not
 // light it.
 #pragma once

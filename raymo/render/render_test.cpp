@@ -42,6 +42,24 @@ scene::Scene balls() {
     return scene;
 }
 
+/// A heap of glass balls over a body: neighbouring rays to the light pass different numbers of surfaces.
+scene::Scene heap() {
+    scene::Scene scene;
+    scene::Material glass;
+    glass.transmission = 0.8;
+    glass.absorption = {0.01, 0.03, 0.05};
+    scene.materials = {glass};
+    scene.parts = {{"body", ball({0, 0, -30}, 25), {}}};
+    for (int i = 0; i < 9; ++i) {
+        const Vec3 place{5.0 * (i % 3) - 5.0, 4.0 * (i / 3) - 4.0, 4.0 + 7.0 * (i % 4)};
+        scene.parts.push_back({"glass", csg::paint(ball(place, 2.0 + 0.5 * (i % 2)), 0), {}});
+    }
+    scene::Light lamp;
+    lamp.position = {10, -15, 90};
+    scene.lights = {lamp};
+    return scene;
+}
+
 /// Hands out tasks in a scattered order, and to several workers in turn.
 class Scattered : public Executor {
 public:
@@ -78,23 +96,24 @@ Options small(Quality quality, int samples = 0) {
 }  // namespace
 
 TEST_CASE("render: the same picture, bit for bit, in any order and with any number of workers") {
-    const scene::Scene scene = balls();
-    const auto compiled = trace::compile(scene);
-    REQUIRE(compiled.has_value());
-    Look look = look_of(scene, compiled->bounds(), 93.0 / 70);
-    for (const bool lens : {false, true}) {
-        look.camera.aperture = lens ? 2.0 : 0.0;
-        for (const Options& options : {small(Quality::final), small(Quality::final, 3),
-                                       small(Quality::preview), small(Quality::draft)}) {
-            Executor one;
-            Scattered many;
-            Progress progress;
-            const auto a = render::render(*compiled, look, options, one, progress);
-            const auto b = render::render(*compiled, look, options, many, progress);
-            REQUIRE(a.has_value());
-            REQUIRE(b.has_value());
-            CHECK(a->rgb == b->rgb);
-            for (const float x : a->rgb) REQUIRE(std::isfinite(x));
+    for (const scene::Scene& scene : {balls(), heap()}) {
+        const auto compiled = trace::compile(scene);
+        REQUIRE(compiled.has_value());
+        Look look = look_of(scene, compiled->bounds(), 93.0 / 70);
+        for (const bool lens : {false, true}) {
+            look.camera.aperture = lens ? 2.0 : 0.0;
+            for (const Options& options : {small(Quality::final), small(Quality::final, 3),
+                                           small(Quality::preview), small(Quality::draft)}) {
+                Executor one;
+                Scattered many;
+                Progress progress;
+                const auto a = render::render(*compiled, look, options, one, progress);
+                const auto b = render::render(*compiled, look, options, many, progress);
+                REQUIRE(a.has_value());
+                REQUIRE(b.has_value());
+                CHECK(a->rgb == b->rgb);
+                for (const float x : a->rgb) REQUIRE(std::isfinite(x));
+            }
         }
     }
 }
@@ -114,37 +133,38 @@ TEST_CASE("render: another seed moves the samples, the same one does not") {
 }
 
 TEST_CASE("render: rays answer the same alone and in batches, but for the order of sums") {
-    const scene::Scene scene = balls();
-    const auto compiled = trace::compile(scene);
-    REQUIRE(compiled.has_value());
-    const Look look = look_of(scene, compiled->bounds(), 1.0);
-    const Stage stage(*compiled, look, Options{});
-    RayShader together(stage);
-    RayShader alone(stage);
-    const scene::View view(look.camera, 60, 60);
-    Answers all;
-    Answers one;
-    for (int y = 0; y < 60; y += 2) {
-        EyeBatch batch;
-        batch.count = 59;
-        EyeBatch single;
-        single.count = 1;
-        for (std::size_t i = 0; i < 64; ++i) {
-            trace::RayQuery query;
-            query.ray = view.ray(std::min<double>(static_cast<double>(i), 58), y);
-            batch.rays[i / 8].set(static_cast<int>(i % 8), query);
-            batch.seed[i] = 17 + i;
-            batch.sample[i] = 0;
-        }
-        together.answer(batch, all);
-        for (std::size_t i = 0; i < batch.count; ++i) {
-            for (int lane = 0; lane < 8; ++lane)
-                single.rays[0].set(lane, batch.rays[i / 8].query(static_cast<int>(i % 8)));
-            single.seed[0] = batch.seed[i];
-            single.sample[0] = 0;
-            alone.answer(single, one);
-            REQUIRE(max_norm(one.light[0] - all.light[i]) < 1e-14);
-            REQUIRE(one.signature[0] == all.signature[i]);
+    for (const scene::Scene& scene : {balls(), heap()}) {
+        const auto compiled = trace::compile(scene);
+        REQUIRE(compiled.has_value());
+        const Look look = look_of(scene, compiled->bounds(), 1.0);
+        const Stage stage(*compiled, look, Options{});
+        RayShader together(stage);
+        RayShader alone(stage);
+        const scene::View view(look.camera, 60, 60);
+        Answers all;
+        Answers one;
+        for (int y = 0; y < 60; y += 2) {
+            EyeBatch batch;
+            batch.count = 59;
+            EyeBatch single;
+            single.count = 1;
+            for (std::size_t i = 0; i < 64; ++i) {
+                trace::RayQuery query;
+                query.ray = view.ray(std::min<double>(static_cast<double>(i), 58), y);
+                batch.rays[i / 8].set(static_cast<int>(i % 8), query);
+                batch.seed[i] = 17 + i;
+                batch.sample[i] = 0;
+            }
+            together.answer(batch, all);
+            for (std::size_t i = 0; i < batch.count; ++i) {
+                for (int lane = 0; lane < 8; ++lane)
+                    single.rays[0].set(lane, batch.rays[i / 8].query(static_cast<int>(i % 8)));
+                single.seed[0] = batch.seed[i];
+                single.sample[0] = 0;
+                alone.answer(single, one);
+                REQUIRE(max_norm(one.light[0] - all.light[i]) < 1e-14);
+                REQUIRE(one.signature[0] == all.signature[i]);
+            }
         }
     }
 }

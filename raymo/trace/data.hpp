@@ -48,8 +48,9 @@ struct Leaf {
     std::uint32_t frame;
     std::uint32_t parent;  ///< group
     std::uint32_t look;
-    std::uint32_t order;            ///< place in the model, left to right
-    std::uint32_t cutters = kNone;  ///< first leaf of a core: root of the tree of its cutters
+    std::uint32_t order;  ///< place in the model, left to right
+    std::uint32_t cutters =
+        kNone;              ///< first leaf of a core: the node that is the root of its cutters
     std::uint8_t unit = 1;  ///< first leaf of a unit: how many leaves the unit has; 0: a later one
     bool alone = false;     ///< the only leaf of its part
 };

@@ -18,8 +18,8 @@ struct Product {
     std::vector<std::uint32_t> core;     ///< all of which a place must be in
     std::vector<std::uint32_t> united;   ///< or any of these
     std::vector<std::uint32_t> cutters;  ///< and in none of these
-    bool
-        has_union;  ///< of which all leaves may have been left out, as they lie outside of the core
+    /// There is a union, though all of its leaves may have been left out, as they lie outside of the core.
+    bool has_union;
     std::uint32_t root = kNone;  ///< node of the tree of the cutters
 };
 
@@ -72,6 +72,12 @@ private:
     [[nodiscard]] bool all_convex(const std::vector<std::uint32_t>& leaves) const {
         return std::all_of(leaves.begin(), leaves.end(),
                            [&](std::uint32_t l) { return kind(l) == LeafKind::one_span; });
+    }
+    /// False for what is called a union here and is part of a difference: b - c in a - (b - c).
+    [[nodiscard]] bool none_cuts(const std::vector<std::uint32_t>& leaves) const {
+        return std::none_of(leaves.begin(), leaves.end(), [&](std::uint32_t l) {
+            return data_.looks[solid_.leaves[l].look].cuts;
+        });
     }
     [[nodiscard]] bool all_in_lanes(const std::vector<std::uint32_t>& leaves) const {
         return std::all_of(leaves.begin(), leaves.end(),
@@ -142,8 +148,8 @@ private:
         } else if (!product.has_union && !product.core.empty() &&
                    product.core.size() <= kMostInUnit && all_convex(product.core) && can_be_cut) {
             add_unit(product.core, box_of(product.core));
-        } else if (!product.united.empty() && product.core.empty() && all_convex(product.united) &&
-                   can_be_cut && lend_alike(product)) {
+        } else if (!product.united.empty() && product.core.empty() && none_cuts(product.united) &&
+                   all_convex(product.united) && can_be_cut && lend_alike(product)) {
             // (a + b) - c = (a - c) + (b - c).
             for (const std::uint32_t& leaf : product.united) add_unit({&leaf, 1}, boxes_[leaf]);
         } else {

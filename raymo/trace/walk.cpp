@@ -1,8 +1,8 @@
 // One text for all instruction sets: this file includes itself once for each (Highway's
 // foreach_target).
 //
-// A single ray is tested against the eight boxes of a node at once; a packet of eight rays against
-// one box at a time. Leaves compute the rays of a packet side by side where their kernel can
+// A single ray is tested against the eight boxes of a node at once, and so is a packet as a whole (a beam); the rays of a
+// packet are then tested against one box at a time. Leaves compute the rays of a packet side by side where their kernel can
 // (solids/kernels.inl), with the same operations in the same order as for a single ray, so that
 // both give equal bits. Boxes only choose what is looked at; they have no part in the result.
 
@@ -41,6 +41,8 @@ using solids::LocalRay;
 #include "raymo/trace/surface.inl"
 //
 #include "raymo/trace/nearest-inl.hpp"
+//
+#include "raymo/trace/finish-inl.hpp"
 #include "raymo/trace/prepare-inl.hpp"
 
 /// Opens what lies nearest until every ray has its answer.
