@@ -129,6 +129,23 @@ HWY_INLINE std::uint32_t meet_node(const Beam& beam, const BvhNode& node) {
     return met;
 }
 
+/// The children of a node that ray `i` of a packet meets between two places, one bit each.
+HWY_INLINE std::uint32_t meet_node_alone(const Context<8>& c, int i, float from, float to,
+                                         const BvhNode& node) {
+    const F f;
+    std::uint32_t met = 0;
+    for (int v = 0; v < BvhNode::kWidth; v += kFloats) {
+        Floats enter = hn::Set(f, from);
+        Floats leave = hn::Set(f, to);
+        for (int a = 0; a < 3; ++a) {
+            clip(hn::Load(f, node.lo[a] + v), hn::Load(f, node.hi[a] + v), hn::Set(f, c.fo[a][i]),
+                 hn::Set(f, c.inverse[a][i]), enter, leave);
+        }
+        met |= float_bits(hn::Le(enter, leave)) << v;
+    }
+    return met;
+}
+
 /// A packet of rays against the children of a node, for the walk of a simple solid.
 HWY_INLINE void open_node(Walker<8>& w, std::uint32_t ref, std::uint32_t lanes, const Beam& beam) {
     const Context<8>& c = w.contexts[0];

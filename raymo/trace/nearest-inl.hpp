@@ -196,10 +196,41 @@ struct ProductInLanes {
     }
 };
 
+/// Puts the children of a node of cutters that are met on the list. `beam`: of the rays, if it can be used.
+HWY_INLINE void open_cutters(Walker<8>& w, const Beam* beam, const RaysInFloats* rays,
+                             const CutterNode& at, const float* from, const float* to) {
+    const Context<8>& c = w.contexts[0];
+    const CompiledSolid& solid = *c.solid;
+    const BvhNode& node = solid.nodes[at.ref];
+    ++w.boxes;
+    // Deep in the tree rays go their own ways: one of them is tested against all boxes at once.
+    const bool single = (at.lanes & (at.lanes - 1)) == 0;
+    std::uint32_t children = kAllLanes;
+    if (single) {
+        const int ray = __builtin_ctz(at.lanes);
+        children = meet_node_alone(c, ray, from[ray], to[ray], node);
+    } else if (beam != nullptr) {
+        children = meet_node(*beam, node);
+    }
+    for (; children != 0; children &= children - 1) {
+        const int k = __builtin_ctz(children);
+        if (!(node.lo[0][k] <= node.hi[0][k])) break;
+        const std::uint32_t met = single ? at.lanes : meet_box(rays, node, k).lanes & at.lanes;
+        if (met == 0) continue;
+        w.cutter_nodes.push_back({node.ref[k], node.count[k], met});
+        if (node.count[k] != 0) {
+            __builtin_prefetch(&solid.leaves[node.ref[k]]);
+        } else {
+            const auto* lines = reinterpret_cast<const char*>(&solid.nodes[node.ref[k]]);
+            for (std::size_t i = 0; i < sizeof(BvhNode); i += 64) __builtin_prefetch(lines + i);
+        }
+    }
+}
+
 /// Looks among the cutters of a product, in the tree with root `root`, for those that the place p.at of the rays `lanes` lies
 /// in. Returns the rays for which it went on.
-HWY_INLINE std::uint32_t search_cutters(Walker<8>& w, std::uint32_t root, int first,
-                                        std::uint32_t lanes, ProductInLanes& p,
+HWY_INLINE std::uint32_t search_cutters(Walker<8>& w, const Beam& beam, std::uint32_t root,
+                                        int first, std::uint32_t lanes, ProductInLanes& p,
                                         NearestInLanes& nearest) {
     const F f;
     const Context<8>& c = w.contexts[0];
@@ -221,36 +252,34 @@ HWY_INLINE std::uint32_t search_cutters(Walker<8>& w, std::uint32_t root, int fi
         rays[v].from = hn::Load(f, from + v * kFloats);
         rays[v].to = hn::Load(f, to + v * kFloats);
     }
+    Beam near_by = beam;
+    near_by.from = least_of(from, lanes << first);
+    near_by.to = most_of(to, lanes << first);
     std::uint32_t moved = 0;
-    std::vector<std::uint32_t>& nodes = w.cutter_nodes;
-    nodes.assign(1, root);
-    while (!nodes.empty()) {
-        const BvhNode& node = c.solid->nodes[nodes.back()];
-        nodes.pop_back();
-        ++w.boxes;
-        for (int k = 0; k < BvhNode::kWidth && node.lo[0][k] <= node.hi[0][k]; ++k) {
-            const std::uint32_t met = meet_box(rays, node, k).lanes;
-            if (met == 0) continue;
-            if (node.count[k] == 0) {
-                nodes.push_back(node.ref[k]);
-                continue;
-            }
-            w.leaves += node.count[k] * static_cast<std::uint64_t>(lane_count(met));
-            const Mask near = mask_of(met >> first);
-            for (std::uint32_t leaf = node.ref[k]; leaf < node.ref[k] + node.count[k]; ++leaf) {
-                SpanInLanes spans[2];
-                Mask trouble;
-                Lanes trouble_lo;
-                const int count = spans_of(w, leaf, first, spans, trouble, trouble_lo);
-                nearest.doubt(lane_and(near, trouble), trouble_lo);
-                for (int i = 0; i < count; ++i) {
-                    SpanInLanes& span = spans[i];
-                    span.valid = lane_and(span.valid, near);
-                    const Mask about = lane_and(span.valid, span.exit.hi >= start);
-                    nearest.pass(lane_and(about, span.enter.near <= start), span.enter.hi);
-                    nearest.pass(lane_and(about, span.exit.near <= start), span.exit.hi);
-                    moved |= bits(p.leave(span, Lanes(static_cast<double>(leaf)), start));
-                }
+    // Level by level, so that what the rays need from memory is asked for before any of it is waited for.
+    std::vector<CutterNode>& boxes = w.cutter_nodes;
+    boxes.assign(1, {root, 0, lanes << first});
+    for (std::size_t next = 0; next < boxes.size(); ++next) {
+        const CutterNode box = boxes[next];
+        if (box.count == 0) {
+            open_cutters(w, beam.usable ? &near_by : nullptr, rays, box, from, to);
+            continue;
+        }
+        w.leaves += box.count * static_cast<std::uint64_t>(lane_count(box.lanes));
+        const Mask near = mask_of(box.lanes >> first);
+        for (std::uint32_t leaf = box.ref; leaf < box.ref + box.count; ++leaf) {
+            SpanInLanes spans[2];
+            Mask trouble;
+            Lanes trouble_lo;
+            const int count = spans_of(w, leaf, first, spans, trouble, trouble_lo);
+            nearest.doubt(lane_and(near, trouble), trouble_lo);
+            for (int i = 0; i < count; ++i) {
+                SpanInLanes& span = spans[i];
+                span.valid = lane_and(span.valid, near);
+                const Mask about = lane_and(span.valid, span.exit.hi >= start);
+                nearest.pass(lane_and(about, span.enter.near <= start), span.enter.hi);
+                nearest.pass(lane_and(about, span.exit.near <= start), span.exit.hi);
+                moved |= bits(p.leave(span, Lanes(static_cast<double>(leaf)), start));
             }
         }
     }
@@ -258,8 +287,8 @@ HWY_INLINE std::uint32_t search_cutters(Walker<8>& w, std::uint32_t root, int fi
 }
 
 /// A product, in its unit's place. Returns the rays that start inside it.
-HWY_INLINE std::uint32_t meet_product(Walker<8>& w, std::uint32_t index, int size, int first,
-                                      std::uint32_t lanes, NearestInLanes& nearest) {
+HWY_INLINE std::uint32_t meet_product(Walker<8>& w, const Beam& beam, std::uint32_t index, int size,
+                                      int first, std::uint32_t lanes, NearestInLanes& nearest) {
     const CompiledSolid& solid = *w.contexts[0].solid;
     const Lanes start = nearest.start;
     const Mask here = mask_of(lanes);
@@ -339,7 +368,7 @@ HWY_INLINE std::uint32_t meet_product(Walker<8>& w, std::uint32_t index, int siz
                 p.doubtful = lane_or(p.doubtful, mask_of(searching));
                 break;
             }
-            searching = search_cutters(w, cutters, first, searching, p, nearest);
+            searching = search_cutters(w, beam, cutters, first, searching, p, nearest);
             searching &= bits(going());
         }
     }
@@ -383,7 +412,7 @@ HWY_INLINE void walk_nearest(Walker<8>& w) {
                 const bool is_leaf = size == 1 && c.solid->leaves[leaf].cutters == kNone;
                 const std::uint32_t inside =
                     is_leaf ? meet_leaf(w, leaf, first, here, nearest)
-                            : meet_product(w, leaf, size, first, here, nearest);
+                            : meet_product(w, beam, leaf, size, first, here, nearest);
                 for (std::uint32_t rest = inside << first; rest != 0; rest &= rest - 1) {
                     // Inside one part that is a single leaf is simple enough.
                     const int i = __builtin_ctz(rest);

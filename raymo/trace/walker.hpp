@@ -217,6 +217,13 @@ struct NearBox {
     [[nodiscard]] std::uint32_t lanes() const { return packed & 0xffU; }
 };
 
+/// A box of a tree of cutters, and the rays of a packet that look for some there.
+struct CutterNode {
+    std::uint32_t ref;
+    std::uint32_t count;  ///< leaves; 0: a node
+    std::uint32_t lanes;
+};
+
 /// Boxes to be opened, sorted with the nearest last.
 template <class Box>
 struct BoxList {
@@ -260,9 +267,9 @@ struct Walker {
     Counters<L> counters;
     BoxList<Unopened> unopened;
     std::uint64_t boxes = 0, leaves = 0;
-    Nearest nearest;                          ///< packets only
-    BoxList<NearBox> near_boxes;              ///< of the walk of a simple solid
-    std::vector<std::uint32_t> cutter_nodes;  ///< of a product, yet to be opened
+    Nearest nearest;                       ///< packets only
+    BoxList<NearBox> near_boxes;           ///< of the walk of a simple solid
+    std::vector<CutterNode> cutter_nodes;  ///< of a product, level by level
 
     /// Applies all clusters of a ray that end before `horizon`, until it is done.
     void advance(int lane, double horizon);
