@@ -1,29 +1,7 @@
 // The formulas of light_model.hpp for one ray or several (see math/lanes.hpp). Included once per instruction set.
 
-template <class R>
-struct Triple {
-    R x, y, z;
-};
-template <class R>
-inline Triple<R> operator+(Triple<R> a, Triple<R> b) {
-    return {a.x + b.x, a.y + b.y, a.z + b.z};
-}
-template <class R>
-inline Triple<R> operator-(Triple<R> a, Triple<R> b) {
-    return {a.x - b.x, a.y - b.y, a.z - b.z};
-}
-template <class R>
-inline Triple<R> operator*(Triple<R> a, Triple<R> b) {
-    return {a.x * b.x, a.y * b.y, a.z * b.z};
-}
-template <class R>
-inline Triple<R> operator*(Triple<R> a, R b) {
-    return {a.x * b, a.y * b, a.z * b};
-}
-template <class R>
-inline R dot(Triple<R> a, Triple<R> b) {
-    return a.x * b.x + a.y * b.y + a.z * b.z;
-}
+#include "raymo/math/triple.inl"
+
 template <class R>
 inline R largest(Triple<R> a) {
     return lane_max(a.x, lane_max(a.y, a.z));

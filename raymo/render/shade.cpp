@@ -3,8 +3,6 @@
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "raymo/render/shade.cpp"
-#define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_AVX3_DL)
-
 #include "raymo/render/shade.hpp"
 
 #include <hwy/foreach_target.h>  // must stand before highway.h
@@ -14,6 +12,7 @@
 #include <numbers>
 
 #include "raymo/math/lanes.hpp"
+#include "raymo/math/targets.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace raymo::render {

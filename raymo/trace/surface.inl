@@ -1,10 +1,7 @@
 // What is told of the surface that a ray meets, for one ray or several (see math/lanes.hpp). Included once per
 // instruction set, after localise.inl.
 
-template <class R>
-struct Triple {
-    R x, y, z;
-};
+#include "raymo/math/triple.inl"
 
 /// a / |a|, scaled first so that squares neither overflow nor underflow.
 template <class R>

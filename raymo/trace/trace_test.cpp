@@ -30,6 +30,11 @@ Solid moved(const Solid& s, Vec3 by) { return csg::transform(s, translation(by))
 Solid turned(const Solid& s, Vec3 axis, double degrees) {
     return csg::transform(s, rotation(unit(axis), degrees)).value();
 }
+RayPacket packed(const std::vector<RayQuery>& queries) {
+    RayPacket rays;
+    for (std::size_t i = 0; i < 8; ++i) rays.set(static_cast<int>(i), queries[i]);
+    return rays;
+}
 Solid join(Solid a, Solid b) { return csg::boolean(Op::unite, {std::move(a), std::move(b)}); }
 Solid cut(Solid a, Solid b) { return csg::boolean(Op::difference, {std::move(a), std::move(b)}); }
 Solid meet(Solid a, Solid b) {
@@ -172,8 +177,7 @@ TEST_CASE("trace: packets and single rays give the same bits") {
         for (RayQuery& q : queries) {
             q.ray = {eye, aim - eye + Vec3{0, uniform(random), uniform(random)}};
         }
-        RayPacket rays;
-        for (std::size_t i = 0; i < 8; ++i) rays.set(static_cast<int>(i), queries[i]);
+        const RayPacket rays = packed(queries);
         HitPacket hits_together;
         const LaneBits all_found = tracer.first_hits(rays, kAllLanes, hits_together);
         CHECK(tracer.occluded(rays, kAllLanes) == all_found);
@@ -223,8 +227,7 @@ TEST_CASE("trace: from within glass, packets and single rays give the same bits"
             q.on_surface = true;
             q.start_error = hit.point_error;
         }
-        RayPacket rays;
-        for (std::size_t i = 0; i < 8; ++i) rays.set(static_cast<int>(i), queries[i]);
+        const RayPacket rays = packed(queries);
         HitPacket hits_together;
         const LaneBits all_found = tracer.first_hits(rays, kAllLanes, hits_together);
         for (std::size_t i = 0; i < 8; ++i) {

@@ -8,10 +8,6 @@
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "raymo/trace/walk.cpp"
-// One ray at a time (the baseline of the build), SSE4, AVX2 and AVX-512; the steps between bring
-// little.
-#define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_AVX3_DL)
-
 #include "raymo/trace/walk.hpp"
 
 #include <hwy/foreach_target.h>  // must stand before highway.h
@@ -22,6 +18,7 @@
 #include <type_traits>
 
 #include "raymo/math/lanes.hpp"
+#include "raymo/math/targets.hpp"
 #include "raymo/math/tolerance.hpp"
 #include "raymo/trace/base_ray.hpp"
 #include "raymo/trace/lane_kinds.hpp"

@@ -1,0 +1,26 @@
+// Vectors and colours of one ray or several (see lanes.hpp). Included once per instruction set.
+
+template <class R>
+struct Triple {
+    R x, y, z;
+};
+template <class R>
+inline Triple<R> operator+(Triple<R> a, Triple<R> b) {
+    return {a.x + b.x, a.y + b.y, a.z + b.z};
+}
+template <class R>
+inline Triple<R> operator-(Triple<R> a, Triple<R> b) {
+    return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+template <class R>
+inline Triple<R> operator*(Triple<R> a, Triple<R> b) {
+    return {a.x * b.x, a.y * b.y, a.z * b.z};
+}
+template <class R>
+inline Triple<R> operator*(Triple<R> a, R b) {
+    return {a.x * b, a.y * b, a.z * b};
+}
+template <class R>
+inline R dot(Triple<R> a, Triple<R> b) {
+    return a.x * b.x + a.y * b.y + a.z * b.z;
+}
