@@ -4,6 +4,9 @@
 
 #include <cmath>
 
+/// For what is computed in registers: a call would take its numbers through memory.
+#define RAYMO_INLINE inline __attribute__((always_inline))
+
 namespace raymo {
 
 [[nodiscard]] inline double lane_sqrt(double a) { return std::sqrt(a); }

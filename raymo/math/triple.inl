@@ -5,22 +5,22 @@ struct Triple {
     R x, y, z;
 };
 template <class R>
-inline Triple<R> operator+(Triple<R> a, Triple<R> b) {
+RAYMO_INLINE Triple<R> operator+(Triple<R> a, Triple<R> b) {
     return {a.x + b.x, a.y + b.y, a.z + b.z};
 }
 template <class R>
-inline Triple<R> operator-(Triple<R> a, Triple<R> b) {
+RAYMO_INLINE Triple<R> operator-(Triple<R> a, Triple<R> b) {
     return {a.x - b.x, a.y - b.y, a.z - b.z};
 }
 template <class R>
-inline Triple<R> operator*(Triple<R> a, Triple<R> b) {
+RAYMO_INLINE Triple<R> operator*(Triple<R> a, Triple<R> b) {
     return {a.x * b.x, a.y * b.y, a.z * b.z};
 }
 template <class R>
-inline Triple<R> operator*(Triple<R> a, R b) {
+RAYMO_INLINE Triple<R> operator*(Triple<R> a, R b) {
     return {a.x * b, a.y * b, a.z * b};
 }
 template <class R>
-inline R dot(Triple<R> a, Triple<R> b) {
+RAYMO_INLINE R dot(Triple<R> a, Triple<R> b) {
     return a.x * b.x + a.y * b.y + a.z * b.z;
 }

@@ -9,13 +9,13 @@ struct ArrivalOf {
 };
 
 template <class R>
-inline Triple<R> everywhere(Vec3 v) {
+RAYMO_INLINE Triple<R> everywhere(Vec3 v) {
     return {R(v.x), R(v.y), R(v.z)};
 }
 
 // `there` is narrowed to the points that anything arrives at. (u, v): the place on an area lamp.
 template <class R, class M>
-inline ArrivalOf<R> arrival(const Lamp& lamp, Triple<R> point, R u, R v, M& there) {
+RAYMO_INLINE ArrivalOf<R> arrival(const Lamp& lamp, Triple<R> point, R u, R v, M& there) {
     ArrivalOf<R> out;
     out.share = R(1.0);
     if (lamp.kind == scene::LightKind::directional) {

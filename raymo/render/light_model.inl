@@ -3,14 +3,14 @@
 #include "raymo/math/triple.inl"
 
 template <class R>
-inline R largest(Triple<R> a) {
+RAYMO_INLINE R largest(Triple<R> a) {
     return lane_max(a.x, lane_max(a.y, a.z));
 }
 
 // Fresnel's equations for unpolarised light, with g = n cos(refracted): F = 1/2 ((g - c) / (g + c))^2
 // (1 + ((c (g + c) - 1) / (c (g - c) + 1))^2).
 template <class R>
-inline R fresnel_of(R cosine, R index) {
+RAYMO_INLINE R fresnel_of(R cosine, R index) {
     const R one(1.0);
     const R g2 = index * index - one + cosine * cosine;
     const R g = lane_sqrt(lane_max(g2, R(0.0)));
@@ -26,14 +26,14 @@ inline R fresnel_of(R cosine, R index) {
 
 // Of Trowbridge and Reitz.
 template <class R>
-inline R facet_density(R cosine, R shape, R scale) {
+RAYMO_INLINE R facet_density(R cosine, R shape, R scale) {
     const R s = cosine * cosine * shape + R(1.0);
     return scale / (s * s);
 }
 
 // min(1, 2 nh nv / vh, 2 nh nl / vh) / (4 nl nv): the least of the three, with the division carried out in each.
 template <class R>
-inline R facet_geometry_of(R nh, R nv, R nl, R vh) {
+RAYMO_INLINE R facet_geometry_of(R nh, R nv, R nl, R vh) {
     const R lesser = lane_max(lane_min(nv, nl), R(0x1p-400));
     const R greater = lane_max(nv, nl);
     const R inverse = R(1.0) / (lesser * greater * vh);
@@ -44,7 +44,7 @@ inline R facet_geometry_of(R nh, R nv, R nl, R vh) {
 
 // From tint * value at normal incidence to white at grazing; `tinted` where there is a tint at all.
 template <class R, class M>
-inline Triple<R> reflected_colour(M tinted, Triple<R> tint, R reflectance, R normal_value) {
+RAYMO_INLINE Triple<R> reflected_colour(M tinted, Triple<R> tint, R reflectance, R normal_value) {
     Triple<R> out{reflectance, reflectance, reflectance};
     if (!lane_any(tinted)) return out;
     const M full = lane_not(normal_value < R(1.0));
@@ -60,7 +60,7 @@ inline Triple<R> reflected_colour(M tinted, Triple<R> tint, R reflectance, R nor
 
 // Snell's law; `there`: where there is no total reflection. Unit up to rounding, which repeated refraction would add up.
 template <class R, class M>
-inline Triple<R> refracted_of(Triple<R> d, Triple<R> n, R index, M& there) {
+RAYMO_INLINE Triple<R> refracted_of(Triple<R> d, Triple<R> n, R index, M& there) {
     const R cosine = R(0.0) - dot(d, n);
     const R g2 = index * index - R(1.0) + cosine * cosine;
     there = g2 > R(0.0);

@@ -17,7 +17,7 @@ struct Window {
 };
 
 template <class R>
-inline void open_window(Window<R>& w) {
+RAYMO_INLINE void open_window(Window<R>& w) {
     const R inf = R(std::numeric_limits<double>::infinity());
     w.enter = w.enter_first = w.enter_last = R(0.0) - inf;
     w.exit = w.exit_first = w.exit_last = inf;
@@ -25,7 +25,7 @@ inline void open_window(Window<R>& w) {
 }
 
 template <class R>
-inline void clip_enter(Window<R>& w, R s, R error, R face) {
+RAYMO_INLINE void clip_enter(Window<R>& w, R s, R error, R face) {
     const auto later = s > w.enter;
     w.enter = lane_select(later, s, w.enter);
     w.enter_face = lane_select(later, face, w.enter_face);
@@ -34,7 +34,7 @@ inline void clip_enter(Window<R>& w, R s, R error, R face) {
 }
 
 template <class R>
-inline void clip_exit(Window<R>& w, R s, R error, R face) {
+RAYMO_INLINE void clip_exit(Window<R>& w, R s, R error, R face) {
     const auto sooner = s < w.exit;
     w.exit = lane_select(sooner, s, w.exit);
     w.exit_face = lane_select(sooner, face, w.exit_face);
@@ -48,7 +48,8 @@ inline void clip_exit(Window<R>& w, R s, R error, R face) {
 // is (nearly) parallel is tilted by as much, which moves no point of the solid by more than that and keeps every number
 // finite; the ray is then certainly inside, certainly outside, or uncertain, as the position alone decides.
 template <class R>
-inline void clip_slab(Window<R>& w, R o, R d, R e, R least, double face_below, double face_above) {
+RAYMO_INLINE void clip_slab(Window<R>& w, R o, R d, R e, R least, double face_below,
+                            double face_above) {
     const R inverse = R(1.0) / lane_copysign(lane_max(lane_abs(d), least), d);
     const R half = lane_abs(inverse);
     const R middle = R(0.0) - o * inverse;
@@ -61,7 +62,7 @@ inline void clip_slab(Window<R>& w, R o, R d, R e, R least, double face_below, d
 
 // 2^-400 of the size of the ray's direction, for clip_slab.
 template <class R>
-inline R least_direction(const LocalRay<R>& ray) {
+RAYMO_INLINE R least_direction(const LocalRay<R>& ray) {
     return (lane_abs(ray.dx) + lane_abs(ray.dy) + lane_abs(ray.dz)) * R(0x1p-400);
 }
 
@@ -69,8 +70,8 @@ inline R least_direction(const LocalRay<R>& ray) {
 // when it is uncertain by more than kDegenerate, in lengths, and this comes from the small angle at which the
 // surface is met, not from the ray's own error.
 template <class R, class M, int N>
-inline void close_window(const Window<R>& w, const LocalRay<R>& ray, M possible, int i,
-                         LaneSpans<R, M, N>& out) {
+RAYMO_INLINE void close_window(const Window<R>& w, const LocalRay<R>& ray, M possible, int i,
+                               LaneSpans<R, M, N>& out) {
     const R enter_error = lane_max(w.enter_last - w.enter, w.enter - w.enter_first);
     const R exit_error = lane_max(w.exit - w.exit_first, w.exit_last - w.exit);
     const R limit = R(kDegenerate) + R(1024.0) * (ray.ex + ray.ey + ray.ez);

@@ -9,8 +9,8 @@ struct Local {
 };
 
 template <class R>
-inline Local<R> localise(const Frame& frame, const Leaf& leaf, R ox, R oy, R oz, R dx, R dy, R dz,
-                         R error) {
+RAYMO_INLINE Local<R> localise(const Frame& frame, const Leaf& leaf, R ox, R oy, R oz, R dx, R dy,
+                               R dz, R error) {
     const auto row = [&](int i, R x, R y, R z) {
         const Vec3& m = frame.to_local.row[static_cast<std::size_t>(i)];
         return R(m.x) * x + R(m.y) * y + R(m.z) * z;

@@ -5,7 +5,7 @@
 
 /// a / |a|, scaled first so that squares neither overflow nor underflow.
 template <class R>
-inline Triple<R> unit_of(Triple<R> a) {
+RAYMO_INLINE Triple<R> unit_of(Triple<R> a) {
     const R size = lane_max(lane_abs(a.x), lane_max(lane_abs(a.y), lane_abs(a.z)));
     const R scale = R(1.0) / lane_max(size, R(0x1p-1022));
     const Triple<R> b{a.x * scale, a.y * scale, a.z * scale};
@@ -15,7 +15,7 @@ inline Triple<R> unit_of(Triple<R> a) {
 
 /// A normal in the frame of a leaf, seen from the frame outside: the transposed map, made unit.
 template <class R>
-inline Triple<R> normal_outside(const Frame& frame, Triple<R> n) {
+RAYMO_INLINE Triple<R> normal_outside(const Frame& frame, Triple<R> n) {
     const Mat3& m = frame.to_local;
     const auto column = [&](int j) {
         return R(m.row[0][j]) * n.x + R(m.row[1][j]) * n.y + R(m.row[2][j]) * n.z;
@@ -25,7 +25,7 @@ inline Triple<R> normal_outside(const Frame& frame, Triple<R> n) {
 
 /// The place in the leaf's frame where the ray is at parameter t of its context.
 template <class R>
-inline Triple<R> place_in_leaf(const Local<R>& local, R t) {
+RAYMO_INLINE Triple<R> place_in_leaf(const Local<R>& local, R t) {
     const R s = t - local.shift;
     return {local.ray.ox + s * local.ray.dx, local.ray.oy + s * local.ray.dy,
             local.ray.oz + s * local.ray.dz};
@@ -37,8 +37,8 @@ struct Surface {
     R t, error, x, y, z, point_error;
 };
 template <class R>
-inline Surface<R> surface_at(const CompiledSolid& base, Triple<R> o, Triple<R> d, Triple<R> normal,
-                             R s, R error, R shift, R t_per_s, R step) {
+RAYMO_INLINE Surface<R> surface_at(const CompiledSolid& base, Triple<R> o, Triple<R> d,
+                                   Triple<R> normal, R s, R error, R shift, R t_per_s, R step) {
     const R unit_roundoff = R(kUnitRoundoff);
     const R two = R(2.0);
     const auto size = [](Triple<R> v) {

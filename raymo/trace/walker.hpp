@@ -12,6 +12,7 @@
 #include <limits>
 #include <vector>
 
+#include "raymo/math/lanes.hpp"
 #include "raymo/trace/data.hpp"
 #include "raymo/trace/tracer.hpp"
 
@@ -234,7 +235,7 @@ struct BoxList {
         if (count + more > room.size()) room.resize(2 * room.size() + more);
     }
     /// There must be room.
-    void put(const Box& box) {
+    RAYMO_INLINE void put(const Box& box) {
         Box* list = room.data();
         std::size_t i = count++;
         while (i > 0 && list[i - 1].t < box.t) {

@@ -1,7 +1,7 @@
 // Spans of the cube [-1, 1]^3, for one ray or several: three slabs (see solids/interval.inl, to be
 // included before).
 template <class R, class M>
-inline void block_spans(const LocalRay<R>& ray, LaneSpans<R, M, 1>& out) {
+RAYMO_INLINE void block_spans(const LocalRay<R>& ray, LaneSpans<R, M, 1>& out) {
     const R least = least_direction(ray);
     Window<R> w;
     open_window(w);
@@ -13,7 +13,7 @@ inline void block_spans(const LocalRay<R>& ray, LaneSpans<R, M, 1>& out) {
 
 // The normal on face `face`, in the place of a point there.
 template <class R>
-inline void block_normal(R face, R& x, R& y, R& z) {
+RAYMO_INLINE void block_normal(R face, R& x, R& y, R& z) {
     const auto side = [&](double low) {
         return lane_select(face == R(low), R(-1.0),
                            lane_select(face == R(low + 1.0), R(1.0), R(0.0)));

@@ -20,7 +20,7 @@
 // Together E; roots of f +- E differ from those of f by at most E / sqrt(max(D, |A| E)),
 // D = B^2 - A C. With A > 0 and D + A E < 0 there is no root.
 template <class R, class M>
-inline void cone_spans(double k, const LocalRay<R>& ray, LaneSpans<R, M, 1>& out) {
+RAYMO_INLINE void cone_spans(double k, const LocalRay<R>& ray, LaneSpans<R, M, 1>& out) {
     const R zero = R(0.0);
     const R inf = R(std::numeric_limits<double>::infinity());
     const R m = R(0.5 * (1.0 + k));
@@ -62,7 +62,7 @@ inline void cone_spans(double k, const LocalRay<R>& ray, LaneSpans<R, M, 1>& out
 // The normal on face `face`, in the place of a point there: of the mantle, the gradient of sqrt(x^2 + y^2) - q(z), which
 // is never zero. At the tip, and as near to it as squares are 0, that is the axis.
 template <class R>
-inline void cone_normal(double ratio, R face, R& x, R& y, R& z) {
+RAYMO_INLINE void cone_normal(double ratio, R face, R& x, R& y, R& z) {
     const auto mantle = face == R(0.0);
     const R r = lane_sqrt(x * x + y * y);
     const auto round = lane_and(mantle, r > R(0.0));

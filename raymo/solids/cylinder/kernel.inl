@@ -14,7 +14,7 @@
 // A line (nearly) parallel to the axis, a < 2^-200 d.d, is tilted by 2^-100, which changes nothing
 // within the solid.
 template <class R, class M>
-inline void cylinder_spans(const LocalRay<R>& ray, LaneSpans<R, M, 1>& out) {
+RAYMO_INLINE void cylinder_spans(const LocalRay<R>& ray, LaneSpans<R, M, 1>& out) {
     const R u = R(kUnitRoundoff);
     const R one = R(1.0);
     const R across = ray.dx * ray.dx + ray.dy * ray.dy;
@@ -43,7 +43,7 @@ inline void cylinder_spans(const LocalRay<R>& ray, LaneSpans<R, M, 1>& out) {
 
 // The normal on face `face`, in the place of a point there.
 template <class R>
-inline void cylinder_normal(R face, R& x, R& y, R& z) {
+RAYMO_INLINE void cylinder_normal(R face, R& x, R& y, R& z) {
     const auto mantle = face == R(0.0);
     x = lane_select(mantle, x, R(0.0));
     y = lane_select(mantle, y, R(0.0));

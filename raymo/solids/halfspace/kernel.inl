@@ -9,7 +9,7 @@
 // that crosses there at so small an angle that the crossing is uncertain by more than kDegenerate
 // of its distance.
 template <class R, class M>
-inline void halfspace_spans(const LocalRay<R>& ray, LaneSpans<R, M, 1>& out) {
+RAYMO_INLINE void halfspace_spans(const LocalRay<R>& ray, LaneSpans<R, M, 1>& out) {
     const R inf = R(std::numeric_limits<double>::infinity());
     const R reach = R(0.5 * kSidestep);
     const R length = lane_sqrt(ray.dd);
@@ -41,7 +41,7 @@ inline void halfspace_spans(const LocalRay<R>& ray, LaneSpans<R, M, 1>& out) {
 
 // The normal, in the place of a point of the plane.
 template <class R>
-inline void halfspace_normal(R& x, R& y, R& z) {
+RAYMO_INLINE void halfspace_normal(R& x, R& y, R& z) {
     x = y = R(0.0);
     z = R(1.0);
 }

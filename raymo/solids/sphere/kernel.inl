@@ -7,7 +7,7 @@
 // otherwise nothing is certainly inside, and there is no span.
 // (The part of e along the line counts: it moves the ends of a line through the centre, too.)
 template <class R, class M>
-inline void sphere_spans(const LocalRay<R>& ray, LaneSpans<R, M, 1>& out) {
+RAYMO_INLINE void sphere_spans(const LocalRay<R>& ray, LaneSpans<R, M, 1>& out) {
     const R oo = ray.ox * ray.ox + ray.oy * ray.oy + ray.oz * ray.oz;
     const R e = ray.ex + ray.ey + ray.ez;
     const R slack = R(4.0) * e + e * e + R(16.0 * kUnitRoundoff);

@@ -97,7 +97,7 @@ struct TorusPlace {
 };
 
 template <class R>
-inline TorusPlace<R> torus_place(const TorusLine<R>& line, R s) {
+RAYMO_INLINE TorusPlace<R> torus_place(const TorusLine<R>& line, R s) {
     const R x = line.ox + s * line.dx;
     const R y = line.oy + s * line.dy;
     const R z = line.oz + s * line.dz;
@@ -115,7 +115,7 @@ inline TorusPlace<R> torus_place(const TorusLine<R>& line, R s) {
 
 // E
 template <class R>
-inline R torus_error(const TorusLine<R>& line, R w) {
+RAYMO_INLINE R torus_error(const TorusLine<R>& line, R w) {
     return (w * R(1.0 / line.b) + R(line.b)) * line.spread + line.spread * line.spread +
            R(4.0 * kUnitRoundoff) * (w + R(line.b * line.b));
 }
@@ -133,15 +133,15 @@ struct TorusEnds {
 };
 
 template <class R, class M>
-inline TorusEnd<R> torus_choose(M mask, TorusEnd<R> yes, TorusEnd<R> no) {
+RAYMO_INLINE TorusEnd<R> torus_choose(M mask, TorusEnd<R> yes, TorusEnd<R> no) {
     return {lane_select(mask, yes.s, no.s), lane_select(mask, yes.reach, no.reach)};
 }
 
 // One step towards an end where G falls (sense -1) or rises (+1), from `limit` where it has gone
 // astray. Ends that are certain are taken from `active`.
 template <class R, class M>
-inline void torus_approach(const TorusLine<R>& line, R sense, R limit, M& active,
-                           TorusEnd<R>& end) {
+RAYMO_INLINE void torus_approach(const TorusLine<R>& line, R sense, R limit, M& active,
+                                 TorusEnd<R>& end) {
     const TorusPlace<R> v = torus_place(line, end.s);
     const R slope = sense * v.h;
     const R inverse = R(0.5) / v.h;
@@ -169,8 +169,8 @@ inline void torus_approach(const TorusLine<R>& line, R sense, R limit, M& active
 
 // The ends of a span that begins after `limit`, improved. Returns for which lines they are certain.
 template <class R, class M>
-inline M torus_span(const TorusLine<R>& line, M asked, R limit, TorusEnd<R>& enter,
-                    TorusEnd<R>& exit) {
+RAYMO_INLINE M torus_span(const TorusLine<R>& line, M asked, R limit, TorusEnd<R>& enter,
+                          TorusEnd<R>& exit) {
     M falling = asked;
     M rising = asked;
     for (int i = 0; i < 8; ++i) {
@@ -185,7 +185,7 @@ inline M torus_span(const TorusLine<R>& line, M asked, R limit, TorusEnd<R>& ent
 // The ends of lines that are plain. Returns which lines meet the solid, and in `two` which twice;
 // these, and those that miss, are taken from `open`.
 template <class R, class M>
-inline M torus_direct(const TorusLine<R>& line, M& open, TorusEnds<R>& ends, M& two) {
+RAYMO_INLINE M torus_direct(const TorusLine<R>& line, M& open, TorusEnds<R>& ends, M& two) {
     const R zero = R(0.0);
     const M never = zero > R(1.0);
     two = never;
@@ -258,7 +258,7 @@ inline M torus_direct(const TorusLine<R>& line, M& open, TorusEnds<R>& ends, M& 
 
 // The only zero of G between `outer`, where G > E, and `inner`, where G < -E.
 template <class R, class M>
-inline TorusEnd<R> torus_end(const TorusLine<R>& line, R outer, R inner, R guess, M active) {
+RAYMO_INLINE TorusEnd<R> torus_end(const TorusLine<R>& line, R outer, R inner, R guess, M active) {
     const R half = R(0.5);
     const M all = active;
     R lo = lane_min(outer, inner);
@@ -304,7 +304,7 @@ inline TorusEnd<R> torus_end(const TorusLine<R>& line, R outer, R inner, R guess
 
 // The ends by way of all extrema. Returns which lines meet the solid; `two`: twice.
 template <class R, class M>
-inline M torus_search(const TorusLine<R>& line, M asked, TorusEnds<R>& ends, M& two) {
+RAYMO_INLINE M torus_search(const TorusLine<R>& line, M asked, TorusEnds<R>& ends, M& two) {
     const R zero = R(0.0);
     const R far = R(1.25);  // beyond the solid, which lies in the unit ball
     const R centre = line.centre;
@@ -396,7 +396,7 @@ inline M torus_search(const TorusLine<R>& line, M asked, TorusEnds<R>& ends, M& 
 }
 
 template <class R, class M>
-inline void torus_spans(double a, double b, const LocalRay<R>& ray, LaneSpans<R, M, 2>& out) {
+RAYMO_INLINE void torus_spans(double a, double b, const LocalRay<R>& ray, LaneSpans<R, M, 2>& out) {
     const R zero = R(0.0);
     const M never = zero > R(1.0);
     for (int i = 0; i < 2; ++i) {

@@ -1,7 +1,7 @@
 // Normal of the torus in the place of a point of its surface: the way from the nearest point of the circle of radius a,
 // (x - a x / q, y - a y / q, z) with q^2 = x^2 + y^2. At the poles of a spindle, where q = 0, that is the axis.
 template <class R>
-inline void torus_normal(double a, R& x, R& y, R& z) {
+RAYMO_INLINE void torus_normal(double a, R& x, R& y, R& z) {
     const R q = lane_sqrt(x * x + y * y);
     const auto off_axis = q > R(0.0);
     const R k = (q - R(a)) / lane_max(q, R(0x1p-1000));
