@@ -9,6 +9,8 @@
 #include <variant>
 
 #include "raymo/core/result.hpp"
+#include "raymo/curves/outline.hpp"
+#include "raymo/curves/path.hpp"
 #include "raymo/math/vec.hpp"
 
 namespace raymo::solids {
@@ -20,11 +22,14 @@ enum class ParamKind : unsigned char {
     flag,    ///< boolean
     vector,  ///< three numbers
     size,  ///< three lengths, given as one vector, as three numbers in a row, or as one number for all three
-    matrix,  ///< 4x4 list of numbers by rows
+    matrix,   ///< 4x4 list of numbers by rows
+    contour,  ///< closed curves of the plane
+    profile,  ///< curves of the half-plane beside an axis, of which one may be open
+    path,     ///< spheres along a curve in space
 };
 
 using Matrix4 = std::array<double, 16>;
-using Argument = std::variant<double, bool, Vec3, Matrix4>;
+using Argument = std::variant<double, bool, Vec3, Matrix4, curves::OutlinePtr, curves::PathPtr>;
 
 struct Param {
     std::string_view name;   ///< as written in the language

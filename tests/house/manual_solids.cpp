@@ -35,6 +35,12 @@ std::string_view kind_words(ParamKind kind) {
                    "three";
         case ParamKind::matrix:
             return "4x4 list of numbers, by rows";
+        case ParamKind::contour:
+            return "contour";
+        case ParamKind::profile:
+            return "contour, or an open curve that is closed along the axis";
+        case ParamKind::path:
+            return "path";
     }
     return {};
 }

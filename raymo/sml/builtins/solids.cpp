@@ -78,6 +78,10 @@ bool take(Call& call, const solids::Param& param, std::size_t slot, std::size_t 
             out = value;
             return true;
         }
+        case solids::ParamKind::contour:
+        case solids::ParamKind::profile:
+        case solids::ParamKind::path:
+            break;  // no primitive takes one yet
     }
     return false;
 }
