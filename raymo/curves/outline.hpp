@@ -13,7 +13,8 @@
 
 namespace raymo::curves {
 
-/// P(u) = (x(u), y(u)) / w(u), each a cubic in Bernstein form. `x` and `y` are already multiplied by the weights; w > 0.
+/// P(u) = (x(u), y(u)) / w(u), each a cubic in Bernstein form. `x` and `y` are already multiplied by the
+/// weights; w > 0, and 1 at both ends.
 struct Span2 {
     std::array<double, 4> x{}, y{};
     std::array<double, 4> w{1.0, 1.0, 1.0, 1.0};

@@ -17,12 +17,10 @@
 #include <vector>
 
 #include "raymo/math/tolerance.hpp"
+#include "raymo/solids/conformance_contour.hpp"
 #include "raymo/solids/inventory.hpp"
 
 namespace raymo::solids::conformance {
-
-/// 113 bits.
-using Quad = __float128;
 
 inline Quad quad_sqrt(Quad a) {
     if (!(a > 0)) return 0;
@@ -74,6 +72,15 @@ inline Quad field(const Quadric::Kernel& k, const QuadPoint& p) {
         }
     }
     return sum;
+}
+
+inline Quad field(const ContourSweep& k, const QuadPoint& p) {
+    const Quad cap = quad_abs(p.z) - 1;
+    if (cap > 0) return cap;
+    const Quad ratio = k.ratio();
+    const Quad q = ((1 + ratio) - (1 - ratio) * p.z) / 2;
+    if (!(q > 0)) return 0;
+    return quad_inside(k.region(), p.x / q, p.y / q) ? (cap < 0 ? -1 : 0) : 1;
 }
 
 class Random {
@@ -254,7 +261,7 @@ void judge(const K& kernel, const Probe& probe, Tally& tally) {
                 {static_cast<double>(q.x), static_cast<double>(q.y), static_cast<double>(q.z)},
                 end.face);
             const double facing = dot(n, {probe.ray.dx, probe.ray.dy, probe.ray.dz}) * outward;
-            if (!(max_norm(n) > 0.0) || end.face >= kernel.faces().size()) {
+            if (!(max_norm(n) > 0.0) || kernel.faces().empty()) {
                 tally.fault("no normal", probe, end.s);
             }
             // At a grazing end the normal's own rounding decides.

@@ -5,9 +5,11 @@
 
 #include "raymo/solids/block/block.hpp"
 #include "raymo/solids/cone/cone.hpp"
+#include "raymo/solids/conic/conic.hpp"
 #include "raymo/solids/cylinder/cylinder.hpp"
 #include "raymo/solids/halfspace/halfspace.hpp"
 #include "raymo/solids/primitive.hpp"
+#include "raymo/solids/prism/prism.hpp"
 #include "raymo/solids/quadric/quadric.hpp"
 #include "raymo/solids/sphere/sphere.hpp"
 #include "raymo/solids/torus/torus.hpp"
@@ -25,7 +27,7 @@ struct List {
     }
 };
 
-using Inventory = List<Block, Sphere, Cylinder, Cone, Torus, Halfspace, Quadric>;
+using Inventory = List<Block, Sphere, Cylinder, Cone, Torus, Halfspace, Quadric, Prism, Conic>;
 
 /// Any kernel of the inventory.
 using AnyKernel = Inventory::Kernels;

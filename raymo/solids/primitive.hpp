@@ -27,7 +27,10 @@ concept Kernel = std::copyable<K> &&
         k.normal(p, face)
         } -> std::same_as<Vec3>;  ///< Outward, of any length > 0, at a point of that face.
     { k.where(p, e) } -> std::same_as<Where>;  ///< `on` when the boundary is within e of p.
-    { k.faces() } -> std::same_as<std::span<const std::string_view>>;  ///< Names of the faces.
+    {
+        k.faces()
+        } -> std::same_as<std::span<
+            const std::string_view>>;  ///< Names of the faces; those beyond have the last.
     { k == k } -> std::same_as<bool>;  ///< Equal kernels are stored once.
 };
 

@@ -273,7 +273,7 @@ std::string_view Tracer::face_name(SurfaceId id) const {
         const auto ask = [&]<std::size_t I>(std::integral_constant<std::size_t, I>) {
             if (frame.type != I) return;
             const auto faces = std::get<I>(data.kernels)[frame.index].faces();
-            if (id.face < faces.size()) name = faces[id.face];
+            if (!faces.empty()) name = faces[std::min<std::size_t>(id.face, faces.size() - 1)];
         };
         [&]<std::size_t... I>(std::index_sequence<I...>) {
             (ask(std::integral_constant<std::size_t, I>{}), ...);

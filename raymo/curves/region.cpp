@@ -1,0 +1,221 @@
+#include "raymo/curves/region.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "raymo/core/assert.hpp"
+#include "raymo/curves/roots.hpp"
+#include "raymo/math/tolerance.hpp"
+
+namespace raymo::curves {
+namespace {
+
+/// Cuts that are nearer to each other, or to an end, are left out: what turns back between them does so by less than the
+/// rounding of the points.
+constexpr double kNearestCuts = 0x1p-30;
+
+constexpr std::uint32_t kLeafPieces = 2;
+
+/// x' w - x w': zero where x / w is stationary.
+Bernstein<5> turning(const std::array<double, 4>& x, const std::array<double, 4>& w) {
+    return sum_of(product(derivative(x), w), product(x, derivative(w)), -1.0);
+}
+
+/// The determinant of P, P' and P'': zero where the curve bends the other way.
+Bernstein<6> bending(const Span2& s) {
+    const auto part = [](const auto& a, const auto& b, const auto& c) {
+        const auto b1 = derivative(b);
+        const auto c1 = derivative(c);
+        return product(a, sum_of(product(b1, derivative(c1)), product(derivative(b1), c1), -1.0));
+    };
+    return sum_of(sum_of(part(s.x, s.y, s.w), part(s.y, s.w, s.x), 1.0), part(s.w, s.x, s.y), 1.0);
+}
+
+template <int N>
+void add_cuts(const Bernstein<N>& p, double noise, std::vector<double>& cuts) {
+    RootList<N> roots;
+    find_roots<N>(p, noise, roots);
+    for (const Root& root : roots) {
+        if (root.crosses) cuts.push_back(root.u);
+    }
+}
+
+/// Where a span must be cut, ascending.
+std::vector<double> cuts_of(const Span2& s) {
+    std::vector<double> cuts;
+    const double size = std::max({size_of(s.x), size_of(s.y), 1e-300});
+    const double weight = size_of(s.w);
+    const double noise = 64.0 * kUnitRoundoff * size * weight;
+    add_cuts<5>(turning(s.x, s.w), noise, cuts);
+    add_cuts<5>(turning(s.y, s.w), noise, cuts);
+    add_cuts<6>(bending(s), 256.0 * noise * size, cuts);
+    std::sort(cuts.begin(), cuts.end());
+    double last = 0.0;
+    std::erase_if(cuts, [&](double u) {
+        if (u - last < kNearestCuts || 1.0 - u < kNearestCuts) return true;
+        last = u;
+        return false;
+    });
+    return cuts;
+}
+
+bool is_point(const Span2& s) {
+    for (std::size_t i = 1; i < 4; ++i) {
+        if (!(s.point(i) == s.point(0))) return false;
+    }
+    return true;
+}
+
+}  // namespace
+
+Box2 box_of(const Span2& piece) {
+    Box2 box;
+    for (std::size_t i = 0; i < 4; ++i) box.include(piece.point(i));
+    return box;
+}
+
+Vec2 point_at(const Span2& piece, double u) {
+    const double w = value_at(piece.w, u);
+    return {value_at(piece.x, u) / w, value_at(piece.y, u) / w};
+}
+
+Vec2 tangent(const Span2& piece, double u) {
+    // Where the derivative (nearly) vanishes, at a cusp or where control points (nearly) coincide, a chord of the hull shows
+    // the direction that the curve has beyond.
+    const double w = value_at(piece.w, u);
+    const double dw = value_at(derivative(piece.w), u);
+    const Vec2 t{value_at(derivative(piece.x), u) * w - value_at(piece.x, u) * dw,
+                 value_at(derivative(piece.y), u) * w - value_at(piece.y, u) * dw};
+    const Box2 box = box_of(piece);
+    const double size = max_norm(box.size()) * w * w;
+    if (max_norm(t) > 0x1p-26 * size) return t;
+    const Vec2 p = point_at(piece, u);
+    for (const std::size_t i : {1U, 2U, 3U}) {
+        const Vec2 chord = u < 0.5 ? piece.point(i) - p : p - piece.point(3 - i);
+        if (max_norm(chord) > 0x1p-20 * max_norm(box.size())) return chord;
+    }
+    return t;
+}
+
+Result<RegionPtr> Region::make(const Outline& outline, Vec2 centre, double scale) {
+    auto region = std::make_shared<Region>();
+    region->fill_ = outline.fill;
+    for (const Curve& curve : outline.curves) {
+        for (const Span2& span : curve.spans) {
+            for (std::size_t i = 0; i < 4; ++i) {
+                if (span.w[i] > 0.0 && std::isfinite(span.w[i]) && is_finite(span.point(i)))
+                    continue;
+                return fail(ErrorCode::bad_argument, "the contour has a point that is not finite");
+            }
+            RAYMO_ASSERT(span.w[0] == 1.0 && span.w[3] == 1.0);
+        }
+        if (!curve.closed) {
+            return fail(ErrorCode::bad_argument, "the contour is not closed",
+                        "close it with `closed: true`");
+        }
+        region->add_curve(curve, centre, scale);
+    }
+    if (region->pieces_.empty())
+        return fail(ErrorCode::bad_argument, "the contour encloses nothing");
+    region->nodes_.reserve(region->pieces_.size());
+    region->add_node(0, static_cast<std::uint32_t>(region->pieces_.size()));
+    return RegionPtr(std::move(region));
+}
+
+void Region::add_curve(const Curve& curve, Vec2 centre, double scale) {
+    const auto first = static_cast<std::uint32_t>(pieces_.size());
+    const auto add = [&](const Span2& span) {
+        if (is_point(span)) return;
+        Piece piece;
+        static_cast<Span2&>(piece) = span;
+        pieces_.push_back(piece);
+    };
+    for (const Span2& written : curve.spans) {
+        // Centred first: far from the origin the map's own product would round.
+        Span2 span = written;
+        for (std::size_t i = 0; i < 4; ++i) {
+            span.x[i] = (written.x[i] - centre.x * written.w[i]) * scale;
+            span.y[i] = (written.y[i] - centre.y * written.w[i]) * scale;
+        }
+        double begin = 0.0;
+        for (const double cut : cuts_of(span)) {
+            const double u = (cut - begin) / (1.0 - begin);
+            Span2 left, right;
+            split(span.x, u, left.x, right.x);
+            split(span.y, u, left.y, right.y);
+            split(span.w, u, left.w, right.w);
+            add(left);
+            span = right;
+            begin = cut;
+        }
+        add(span);
+    }
+    const auto end = static_cast<std::uint32_t>(pieces_.size());
+    for (std::uint32_t i = first; i < end; ++i) {
+        Piece& piece = pieces_[i];
+        piece.previous = i == first ? end - 1 : i - 1;
+        piece.next = i + 1 == end ? first : i + 1;
+    }
+    for (std::uint32_t i = first; i < end; ++i) {
+        Piece& piece = pieces_[i];
+        const Piece& next = pieces_[piece.next];
+        piece.x[3] = next.x[0];
+        piece.y[3] = next.y[0];
+    }
+    if (first < end) number_runs(first);
+}
+
+/// A corner is a joint at which the tangent turns by more than rounding explains.
+void Region::number_runs(std::uint32_t first) {
+    const auto end = static_cast<std::uint32_t>(pieces_.size());
+    const auto is_corner = [&](std::uint32_t i) {
+        const Vec2 in = tangent(pieces_[pieces_[i].previous], 1.0);
+        const Vec2 out = tangent(pieces_[i], 0.0);
+        return std::fabs(cross(in, out)) > 0x1p-30 * norm(in) * norm(out) || dot(in, out) < 0.0;
+    };
+    std::uint32_t run = runs_;
+    for (std::uint32_t i = first; i < end; ++i) {
+        if (i > first && is_corner(i)) ++run;
+        pieces_[i].run = run;
+    }
+    // The last stretch of a curve that closes smoothly goes on in the first.
+    if (run > runs_ && !is_corner(first)) {
+        for (std::uint32_t i = end; i-- > first && pieces_[i].run == run;) pieces_[i].run = runs_;
+        --run;
+    }
+    runs_ = run + 1;
+}
+
+void Region::add_node(std::uint32_t first, std::uint32_t end) {
+    const auto index = static_cast<std::uint32_t>(nodes_.size());
+    nodes_.emplace_back();
+    Box2 box;
+    if (end - first <= kLeafPieces) {
+        nodes_[index].first = first;
+        nodes_[index].count = end - first;
+        for (std::uint32_t i = first; i < end; ++i) box.include(box_of(pieces_[i]));
+    } else {
+        // Pieces that follow each other lie together, so halves of the list make a good tree.
+        const std::uint32_t middle = first + (end - first) / 2;
+        for (const auto& [from, to] : {std::pair{first, middle}, std::pair{middle, end}}) {
+            const auto child = static_cast<std::uint32_t>(nodes_.size());
+            add_node(from, to);
+            box.include(nodes_[child].box);
+        }
+    }
+    nodes_[index].box = box;
+    nodes_[index].skip = static_cast<std::uint32_t>(nodes_.size());
+}
+
+bool operator==(const Region& a, const Region& b) {
+    if (a.fill_ != b.fill_ || a.pieces_.size() != b.pieces_.size()) return false;
+    for (std::size_t i = 0; i < a.pieces_.size(); ++i) {
+        const Piece& p = a.pieces_[i];
+        const Piece& q = b.pieces_[i];
+        if (!(static_cast<const Span2&>(p) == q) || p.next != q.next) return false;
+    }
+    return true;
+}
+
+}  // namespace raymo::curves
