@@ -99,6 +99,15 @@ Vec2 tangent(const Span2& piece, double u) {
 }
 
 Result<RegionPtr> Region::make(const Outline& outline, Vec2 centre, double scale) {
+    return make(outline, centre, scale, false);
+}
+
+Result<RegionPtr> Region::make_beside_axis(const Outline& outline, Vec2 centre, double scale) {
+    return make(outline, centre, scale, true);
+}
+
+Result<RegionPtr> Region::make(const Outline& outline, Vec2 centre, double scale,
+                               bool beside_axis) {
     auto region = std::make_shared<Region>();
     region->fill_ = outline.fill;
     for (const Curve& curve : outline.curves) {
@@ -114,7 +123,7 @@ Result<RegionPtr> Region::make(const Outline& outline, Vec2 centre, double scale
             return fail(ErrorCode::bad_argument, "the contour is not closed",
                         "close it with `closed: true`");
         }
-        region->add_curve(curve, centre, scale);
+        region->add_curve(curve, centre, scale, beside_axis);
     }
     if (region->pieces_.empty())
         return fail(ErrorCode::bad_argument, "the contour encloses nothing");
@@ -123,10 +132,10 @@ Result<RegionPtr> Region::make(const Outline& outline, Vec2 centre, double scale
     return RegionPtr(std::move(region));
 }
 
-void Region::add_curve(const Curve& curve, Vec2 centre, double scale) {
+void Region::add_curve(const Curve& curve, Vec2 centre, double scale, bool beside_axis) {
     const auto first = static_cast<std::uint32_t>(pieces_.size());
     const auto add = [&](const Span2& span) {
-        if (is_point(span)) return;
+        if (is_point(span) || (beside_axis && size_of(span.x) == 0.0)) return;
         Piece piece;
         static_cast<Span2&>(piece) = span;
         pieces_.push_back(piece);
@@ -160,6 +169,7 @@ void Region::add_curve(const Curve& curve, Vec2 centre, double scale) {
     for (std::uint32_t i = first; i < end; ++i) {
         Piece& piece = pieces_[i];
         const Piece& next = pieces_[piece.next];
+        if (beside_axis && piece.x[3] == 0.0 && next.x[0] == 0.0) continue;
         piece.x[3] = next.x[0];
         piece.y[3] = next.y[0];
     }

@@ -20,7 +20,8 @@ enum class Side : std::uint8_t { out, on, in };
 
 /// A rational cubic of an outline, in the region's frame.
 struct Piece : Span2 {
-    std::uint32_t next = 0;      ///< the piece that begins where this one ends
+    /// The piece that begins where this one ends; or, where pieces on an axis are left out, behind them.
+    std::uint32_t next = 0;
     std::uint32_t previous = 0;  ///< and the one that ends where this begins
     std::uint32_t run = 0;  ///< number of the smooth stretch between two corners that it is part of
 };
@@ -31,6 +32,11 @@ public:
     /// Error: bad_argument when no point is enclosed or a coordinate is not finite. Cost: about 1 us a span.
     [[nodiscard]] static Result<std::shared_ptr<const Region>> make(const Outline& outline,
                                                                     Vec2 centre, double scale);
+
+    /// The same for a half-plane x >= 0 that is turned about its edge: pieces on the edge are left out, as they sweep nothing
+    /// and bound nothing. `where` then tells of points with x >= 0 only.
+    [[nodiscard]] static Result<std::shared_ptr<const Region>> make_beside_axis(
+        const Outline& outline, Vec2 centre, double scale);
 
     [[nodiscard]] const std::vector<Piece>& pieces() const { return pieces_; }
     [[nodiscard]] Fill fill() const { return fill_; }
@@ -77,7 +83,10 @@ private:
         std::uint32_t count = 0;  ///< 0: an inner node
     };
 
-    void add_curve(const Curve& curve, Vec2 centre, double scale);
+    [[nodiscard]] static Result<std::shared_ptr<const Region>> make(const Outline& outline,
+                                                                    Vec2 centre, double scale,
+                                                                    bool beside_axis);
+    void add_curve(const Curve& curve, Vec2 centre, double scale, bool beside_axis);
     void number_runs(std::uint32_t first);
     void add_node(std::uint32_t first, std::uint32_t end);
 

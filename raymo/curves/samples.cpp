@@ -90,4 +90,24 @@ OutlinePtr sample_loop() {
     return shared({std::move(curve)});
 }
 
+OutlinePtr sample_half_disc() {
+    Curve curve;
+    curve.spans = {arc({0, 1}, 2.0, -90.0, 0.0), arc({0, 1}, 2.0, 0.0, 90.0),
+                   segment({0, 3}, {0, -1})};
+    curve.closed = true;
+    return shared({std::move(curve)});
+}
+
+OutlinePtr sample_goblet() {
+    Curve curve;
+    curve.spans = {segment({0, 0}, {3, 0}),
+                   segment({3, 0}, {3, 0.25}),
+                   segment({3, 0.25}, {0.4, 0.25 + 1e-7}),
+                   cubic({0.4, 0.25 + 1e-7}, {0.1, 2}, {0.9, 3}, {0.5, 4}),
+                   cubic({0.5, 4}, {4, 5}, {4, 7}, {2.5, 9}),
+                   segment({2.5, 9}, {2.25, 9}),
+                   cubic({2.25, 9}, {3.5, 7}, {3.5, 5}, {0, 4.5})};
+    return shared({std::move(curve)});
+}
+
 }  // namespace raymo::curves

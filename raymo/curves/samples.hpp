@@ -24,5 +24,9 @@ namespace raymo::curves {
 [[nodiscard]] OutlinePtr sample_rosette();
 /// A cubic that crosses itself, with a cusp, points that coincide, and parts that are nearly straight.
 [[nodiscard]] OutlinePtr sample_loop();
+/// A half-disc with its straight side on the axis x = 0.
+[[nodiscard]] OutlinePtr sample_half_disc();
+/// An open profile from the axis to the axis, with corners, level and upright parts, and one that nearly is level.
+[[nodiscard]] OutlinePtr sample_goblet();
 
 }  // namespace raymo::curves

@@ -83,6 +83,17 @@ inline Quad field(const ContourSweep& k, const QuadPoint& p) {
     return quad_inside(k.region(), p.x / q, p.y / q) ? (cap < 0 ? -1 : 0) : 1;
 }
 
+inline Quad field(const Revolve::Kernel& k, const QuadPoint& p) {
+    if (k.angle() < 360.0) {
+        const SinCos end = sin_cos_degrees(k.angle());
+        const Quad a = -p.y;
+        const Quad b = Quad(end.cos) * p.y - Quad(end.sin) * p.x;
+        const Quad depth = k.angle() <= 180.0 ? (a > b ? a : b) : (a < b ? a : b);
+        if (depth > 0) return depth;
+    }
+    return quad_inside(k.region(), quad_sqrt(p.x * p.x + p.y * p.y), p.z) ? -1 : 1;
+}
+
 class Random {
 public:
     explicit Random(std::uint64_t seed) : engine_(seed) {}

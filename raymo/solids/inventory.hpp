@@ -11,6 +11,7 @@
 #include "raymo/solids/primitive.hpp"
 #include "raymo/solids/prism/prism.hpp"
 #include "raymo/solids/quadric/quadric.hpp"
+#include "raymo/solids/revolve/revolve.hpp"
 #include "raymo/solids/sphere/sphere.hpp"
 #include "raymo/solids/torus/torus.hpp"
 
@@ -27,7 +28,8 @@ struct List {
     }
 };
 
-using Inventory = List<Block, Sphere, Cylinder, Cone, Torus, Halfspace, Quadric, Prism, Conic>;
+using Inventory =
+    List<Block, Sphere, Cylinder, Cone, Torus, Halfspace, Quadric, Prism, Conic, Revolve>;
 
 /// Any kernel of the inventory.
 using AnyKernel = Inventory::Kernels;

@@ -1,0 +1,375 @@
+#include "raymo/solids/revolve/profile_line.hpp"
+
+#include <array>
+#include <cmath>
+
+#include "raymo/curves/roots.hpp"
+#include "raymo/math/tolerance.hpp"
+
+namespace raymo::solids {
+
+using curves::Bernstein;
+using curves::derivative;
+using curves::Piece;
+using curves::product;
+using curves::sum_of;
+using curves::value_at;
+
+namespace {
+
+/// A direction that is off an axis or its perpendicular by less than this, seen from the ray's length, is taken to be
+/// exactly so: over the solid that is less than a rounding.
+constexpr double kExact = 0x1p-58;
+
+/// Nearer to the axis than this many times its error a ray along it is taken to be at that distance: on the axis itself the
+/// contour is never crossed.
+constexpr double kOffAxis = 1024.0;
+
+/// How much the slope may change, as a part of itself, over the range in which a crossing may lie.
+constexpr double kSteady = 0.25;
+
+/// Parts shorter than this are not halved again.
+constexpr double kShortest = 0x1p-44;
+
+Bernstein<6> square_sum(const Bernstein<3>& a, const Bernstein<3>& b, const Bernstein<3>& c) {
+    return sum_of(sum_of(product(a, a), product(b, b), 1.0), product(c, c), -1.0);
+}
+
+bool is_monotone(const Bernstein<6>& f) {
+    bool rises = true;
+    bool falls = true;
+    for (std::size_t i = 0; i < 6; ++i) {
+        rises = rises && f[i + 1] >= f[i];
+        falls = falls && f[i + 1] <= f[i];
+    }
+    return rises || falls;
+}
+
+/// A zero of f in [0, 1]; f(u, value, slope), with values of different sign at the ends.
+template <class F>
+double bracketed_zero(F&& f, bool rises) {
+    double lo = 0.0;
+    double hi = 1.0;
+    double u = 0.5;
+    double width = 1.0;
+    for (int i = 0; i < 120; ++i) {
+        double value, slope;
+        f(u, value, slope);
+        if (value == 0.0) return u;
+        if ((value < 0.0) == rises) {
+            lo = u;
+        } else {
+            hi = u;
+        }
+        double next = u - value / slope;
+        if (i % 3 == 2) {
+            if (!(hi - lo < 0.5 * width)) next = 0.5 * (lo + hi);
+            width = hi - lo;
+        }
+        if (!(next > lo && next < hi)) next = 0.5 * (lo + hi);
+        if (std::fabs(next - u) <= 0x1p-53 || hi - lo <= 0x1p-53) return next;
+        u = next;
+    }
+    return u;
+}
+
+}  // namespace
+
+ProfileLine::ProfileLine(const curves::Region& region, const LocalRay<double>& ray, Crossings& out)
+    : region_(region),
+      o_{ray.ox, ray.oy, ray.oz},
+      d_{ray.dx, ray.dy, ray.dz},
+      e_{ray.ex, ray.ey, ray.ez},
+      length_(std::sqrt(ray.dd)),
+      across_(std::hypot(ray.dx, ray.dy)),
+      out_(out) {
+    const double rounding = 32.0 * kUnitRoundoff * std::max(1.0, max_norm(o_));
+    e_ += Vec3{rounding, rounding, rounding};
+    const double up = std::fabs(d_.z);
+    if (across_ <= kExact * length_) {
+        slant_ = Slant::upright;
+        rho_ = std::hypot(o_.x, o_.y);
+        const double least = kOffAxis * std::max(e_.x, e_.y);
+        if (rho_ < least) {
+            rho_ = least;
+            e_.x += 2.0 * least;
+            e_.y += 2.0 * least;
+        }
+        return;
+    }
+    slant_ = up <= kExact * length_ ? Slant::level : (up <= across_ ? Slant::flat : Slant::steep);
+    s_c_ = -(o_.x * d_.x + o_.y * d_.y) / (across_ * across_);
+    z_c_ = o_.z + s_c_ * d_.z;
+    rho_ = std::fabs(o_.x * d_.y - o_.y * d_.x) / across_;
+    noise_ = 2.0 * (up * up * (e_.x + e_.y) + up * across_ * e_.z);
+}
+
+void ProfileLine::meet_all() {
+    region_.walk([&](const Box2& box) { return meets(box); },
+                 [&](std::uint32_t i) {
+                     meet(i);
+                     meet_corner(i);
+                 });
+}
+
+bool ProfileLine::meets(const Box2& box) const {
+    const double ez = 4.0 * e_.z;
+    const double er = 4.0 * (e_.x + e_.y);
+    if (slant_ == Slant::upright) return rho_ >= box.lo.x - er && rho_ <= box.hi.x + er;
+    if (slant_ == Slant::level) {
+        return o_.z >= box.lo.y - ez && o_.z <= box.hi.y + ez && rho_ <= box.hi.x + er;
+    }
+    // The stretch of the ray at the box's heights, and how near and far from the axis it is there.
+    const double s1 = (box.lo.y - ez - o_.z) / d_.z;
+    const double s2 = (box.hi.y + ez - o_.z) / d_.z;
+    const double first = std::min(s1, s2) - s_c_;
+    const double last = std::max(s1, s2) - s_c_;
+    const double far = std::max(std::fabs(first), std::fabs(last)) * across_;
+    const double near = first > 0.0 ? first * across_ : (last < 0.0 ? -last * across_ : 0.0);
+    const double slack = er + 0x1p-45 * (1.0 + far);
+    const double inner = std::max(box.lo.x - slack, 0.0);
+    return rho_ * rho_ + far * far >= inner * inner && std::hypot(rho_, near) <= box.hi.x + slack;
+}
+
+void ProfileLine::meet(std::uint32_t i) {
+    switch (slant_) {
+        case Slant::level:
+            return meet_level(i);
+        case Slant::upright:
+            return meet_upright(i);
+        case Slant::flat:
+        case Slant::steep:
+            return meet_slanted(i);
+    }
+}
+
+void ProfileLine::meet_level(std::uint32_t i) {
+    const Piece& piece = region_.pieces()[i];
+    const Cubic h = sum_of(piece.y, piece.w, -o_.z);
+    curves::RootList<3> roots;
+    curves::find_roots<3>(h, e_.z, roots);
+    for (const curves::Root& root : roots) {
+        const double r = value_at(piece.x, root.u) / value_at(piece.w, root.u);
+        if (r < rho_ - 2.0 * (e_.x + e_.y)) continue;
+        if (!root.crosses || r <= rho_) {
+            // In a flat wall, or tangent to a circle.
+            out_.set_degenerate();
+            continue;
+        }
+        const int turn = root.rises ? 1 : -1;
+        cross_at(i, root.u, turn, 1);
+        cross_at(i, root.u, -turn, -1);
+    }
+}
+
+void ProfileLine::meet_upright(std::uint32_t i) {
+    const Piece& piece = region_.pieces()[i];
+    const Cubic f = sum_of(piece.x, piece.w, -rho_);
+    curves::RootList<3> roots;
+    curves::find_roots<3>(f, e_.x + e_.y, roots);
+    for (const curves::Root& root : roots) {
+        if (root.crosses) {
+            cross_at(i, root.u, root.rises == (d_.z > 0.0) ? -1 : 1, 0);
+        } else {
+            out_.set_degenerate();
+        }
+    }
+}
+
+void ProfileLine::meet_slanted(std::uint32_t i) {
+    const Piece& piece = region_.pieces()[i];
+    Part whole{{}, {}, {}, 0.0, 1.0};
+    for (std::size_t k = 0; k < 4; ++k) {
+        const double w = piece.w[k];
+        if (slant_ == Slant::flat) {
+            whole.a[k] = across_ * (piece.y[k] - z_c_ * w);
+            whole.b[k] = d_.z * rho_ * w;
+        } else {
+            const double rise = piece.y[k] - o_.z * w;
+            whole.a[k] = d_.z * o_.x * w + rise * d_.x;
+            whole.b[k] = d_.z * o_.y * w + rise * d_.y;
+        }
+        whole.c[k] = d_.z * piece.x[k];
+    }
+    std::array<Part, 64> open;
+    std::size_t count = 0;
+    open[count++] = whole;
+    while (count > 0) {
+        const Part part = open[--count];
+        const Bernstein<6> f = square_sum(part.a, part.b, part.c);
+        const auto [least, most] = std::minmax_element(f.begin(), f.end());
+        if (*least > noise_ || *most < -noise_) continue;
+        const int changes = curves::sign_changes(f);
+        const double width = part.hi - part.lo;
+        const bool rises = f[0] < 0.0;
+        if (changes == 1) {
+            const double u = bracketed_zero(
+                [&](double v, double& value, double& slope) {
+                    const double a = value_at(part.a, v);
+                    const double b = value_at(part.b, v);
+                    const double c = value_at(part.c, v);
+                    value = a * a + b * b - c * c;
+                    slope = 2.0 * (a * value_at(derivative(part.a), v) +
+                                   b * value_at(derivative(part.b), v) -
+                                   c * value_at(derivative(part.c), v));
+                },
+                rises);
+            cross_at(i, part.lo + width * u, rises == (d_.z > 0.0) ? 1 : -1, 0);
+            continue;
+        }
+        if (changes == 0 && is_monotone(f)) continue;
+        if (slant_ == Slant::flat && changes == 2 && split_halves(i, part)) continue;
+        if (width <= kShortest || (*most <= noise_ && *least >= -noise_)) {
+            // Tangent, or in the wall.
+            out_.set_degenerate();
+            continue;
+        }
+        Part left{{}, {}, {}, part.lo, part.lo + 0.5 * width};
+        Part right{{}, {}, {}, left.hi, part.hi};
+        curves::split(part.a, 0.5, left.a, right.a);
+        curves::split(part.b, 0.5, left.b, right.b);
+        curves::split(part.c, 0.5, left.c, right.c);
+        open[count++] = right;
+        open[count++] = left;
+    }
+}
+
+bool ProfileLine::split_halves(std::uint32_t i, const Part& part) {
+    if (curves::sign_changes(part.a) != 1) return false;
+    const Bernstein<6> k =
+        sum_of(product(part.c, part.c), product(part.b, part.b), -1.0);  // C^2 - B^2
+    if (!(*std::min_element(k.begin(), k.end()) > 0.0)) return false;
+    const double first = std::sqrt(k[0]);
+    const double last = std::sqrt(k[6]);
+    const bool rises = part.a[0] < 0.0;
+    for (const double half : {1.0, -1.0}) {
+        if ((part.a[0] - half * first < 0.0) != rises) return false;
+        if ((part.a[3] - half * last < 0.0) == rises) return false;
+    }
+    for (const double half : {1.0, -1.0}) {
+        const double u = bracketed_zero(
+            [&](double v, double& value, double& slope) {
+                const double root = std::sqrt(std::max(value_at(k, v), 0.0));
+                value = value_at(part.a, v) - half * root;
+                slope = value_at(derivative(part.a), v) -
+                        half * 0.5 * value_at(derivative(k), v) / root;
+            },
+            rises);
+        // The half on which z - z_c, and with it d.z (s - s_c), is positive.
+        const int side = (half > 0.0) == (d_.z > 0.0) ? 1 : -1;
+        cross_at(i, part.lo + (part.hi - part.lo) * u, rises == (side > 0) ? 1 : -1, side);
+    }
+    return true;
+}
+
+double ProfileLine::place(Vec2 p, int half) const {
+    if (slant_ == Slant::upright || slant_ == Slant::steep) return (p.y - o_.z) / d_.z;
+    const double along = std::sqrt(std::max((p.x - rho_) * (p.x + rho_), 0.0));
+    const double rise = p.y - z_c_;
+    // By the height, or by the radius: whichever is told better.
+    if (slant_ == Slant::flat && along * across_ <= p.x * std::fabs(d_.z)) {
+        return s_c_ + rise / d_.z;
+    }
+    if (half == 0) half = (rise < 0.0) == (d_.z < 0.0) ? 1 : -1;
+    return s_c_ + half * along / across_;
+}
+
+void ProfileLine::slope_at(const Piece& piece, double u, double s, double& slope,
+                           double& ds) const {
+    const Vec2 t = curves::tangent(piece, u);
+    const double x = o_.x + s * d_.x;
+    const double y = o_.y + s * d_.y;
+    const double r = std::hypot(x, y);
+    const double inverse = r > 0.0 ? 1.0 / r : 0.0;
+    const Vec3 n{t.y * x * inverse, t.y * y * inverse, -t.x};
+    const double size = norm(n);
+    slope = dot(n, d_) / size;
+    ds = dot(abs(n), e_) / (size * std::fabs(slope));
+}
+
+void ProfileLine::cross_at(std::uint32_t i, double u, int turn, int half) {
+    const Piece& piece = region_.pieces()[i];
+    const Vec2 p = curves::point_at(piece, u);
+    const double s = place(p, half);
+    double slope, ds;
+    slope_at(piece, u, s, slope, ds);
+    if (!(ds < Aabb::kInf) || !(std::fabs(s) < Aabb::kInf)) {
+        out_.set_degenerate();
+        return;
+    }
+    // How far the crossing may be off, and by how much the normal turns over that way.
+    const double way = ds * length_ + max_norm(e_);
+    const Vec2 t = curves::tangent(piece, u);
+    const double w = value_at(piece.w, u);
+    const double speed = norm(t) / (w * w);
+    double bend = 0.0;
+    for (const std::size_t k : {0U, 1U}) {
+        bend = std::max({bend, std::fabs(piece.x[k] - 2.0 * piece.x[k + 1] + piece.x[k + 2]),
+                         std::fabs(piece.y[k] - 2.0 * piece.y[k + 1] + piece.y[k + 2]),
+                         std::fabs(piece.w[k] - 2.0 * piece.w[k + 1] + piece.w[k + 2])});
+    }
+    const double du = way / speed;
+    const double round = std::fabs(t.y) / norm(t) / std::max(p.x, 0x1p-200);
+    if (!(16.0 * bend * du / speed + round * way <= kSteady * std::fabs(slope) / length_)) {
+        out_.set_degenerate();
+        return;
+    }
+    double error = ds;
+    if (u < du || u + du > 1.0) {
+        const bool before = u < du;
+        const Piece& other = region_.pieces()[before ? piece.previous : piece.next];
+        double other_slope, other_ds;
+        slope_at(other, before ? 1.0 : 0.0, s, other_slope, other_ds);
+        if ((other_slope < 0.0) == (slope < 0.0)) {
+            if (!(other_ds < Aabb::kInf)) {
+                out_.set_degenerate();
+                return;
+            }
+            error = std::max(error, other_ds);
+        }
+    }
+    error = 1.5 * error + 8.0 * kUnitRoundoff * std::fabs(s);
+    out_.add({s, s - error, s + error, turn, piece.run});
+}
+
+void ProfileLine::meet_corner(std::uint32_t i) {
+    const Piece& piece = region_.pieces()[i];
+    const Vec2 p = piece.point(3);
+    const double er = 4.0 * (e_.x + e_.y);
+    // On the axis, where the wall has a tip or a pole: a ray through it may meet every side of it.
+    for (const std::size_t end : {0U, 3U}) {
+        const Vec2 tip = piece.point(end);
+        if (tip.x > er) continue;
+        const Vec3 to = Vec3{0.0, 0.0, tip.y} - o_;
+        const Vec3 off = abs(to - d_ * (dot(to, d_) / (length_ * length_)));
+        if (off.x <= er && off.y <= er && off.z <= 4.0 * e_.z && slant_ != Slant::upright)
+            out_.set_degenerate();
+    }
+    if (p.x <= er) return;
+    const bool halves = slant_ == Slant::level || slant_ == Slant::flat;
+    for (const int half : {1, -1}) {
+        if (!halves && half < 0) break;
+        double s = place(p, halves ? half : 0);
+        if (halves) {
+            s = s_c_ + half * std::sqrt(std::max((p.x - rho_) * (p.x + rho_), 0.0)) / across_;
+        }
+        const Vec3 at = o_ + s * d_;
+        if (!(std::fabs(std::hypot(at.x, at.y) - p.x) <= er &&
+              std::fabs(at.z - p.y) <= 4.0 * e_.z)) {
+            continue;
+        }
+        const Piece& next = region_.pieces()[piece.next];
+        double slope, ds, next_slope, next_ds;
+        slope_at(piece, 1.0, s, slope, ds);
+        slope_at(next, 0.0, s, next_slope, next_ds);
+        if (slope * next_slope > 0.0) continue;
+        const double error = 4.0 * std::max(ds, next_ds) + 8.0 * kUnitRoundoff * std::fabs(s);
+        if (!(error < Aabb::kInf)) {
+            out_.set_degenerate();
+            return;
+        }
+        out_.add({s, s - error, s + error, 0, piece.run});
+    }
+}
+
+}  // namespace raymo::solids
