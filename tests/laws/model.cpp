@@ -3,7 +3,10 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <numbers>
 #include <unordered_map>
+
+#include "tests/laws/contour.hpp"
 
 namespace raymo::laws {
 namespace {
@@ -11,6 +14,16 @@ namespace {
 ModelPtr leaf(std::string name, std::vector<double> numbers, bool centred = false) {
     auto model = std::make_shared<Model>();
     model->primitive = std::move(name);
+    model->numbers = std::move(numbers);
+    model->centred = centred;
+    return model;
+}
+
+ModelPtr swept(std::string name, curves::OutlinePtr outline, std::vector<double> numbers,
+               bool centred = false) {
+    auto model = std::make_shared<Model>();
+    model->primitive = std::move(name);
+    model->outline = std::move(outline);
     model->numbers = std::move(numbers);
     model->centred = centred;
     return model;
@@ -31,6 +44,9 @@ std::vector<solids::Argument> arguments(const Model& m) {
     if (m.primitive == "cone") return {n[0], n[1], n[2], m.centred};
     if (m.primitive == "torus") return {n[0], n[1]};
     if (m.primitive == "halfspace") return {Vec3{n[0], n[1], n[2]}, n[3]};
+    if (m.primitive == "prism") return {m.outline, n[0], m.centred};
+    if (m.primitive == "conic") return {m.outline, n[0], n[1], m.centred};
+    if (m.primitive == "revolve") return {m.outline, n[0]};
     solids::Matrix4 matrix{};
     for (std::size_t i = 0; i < 16; ++i) matrix[i] = n[i];
     return {matrix};
@@ -110,6 +126,31 @@ Side classify_quadric(const Model& m, const RealPoint& p, Real margin) {
     return side_of(f, 2 * slope * margin + bend * margin * margin);
 }
 
+Side both(Side a, Side b) { return std::min(a, b); }
+
+Side classify_swept(const Model& m, const RealPoint& p, Real margin) {
+    const auto n = [&](std::size_t i) { return static_cast<Real>(m.numbers[i]); };
+    if (m.primitive == "revolve") {
+        const Side side = classify(*m.outline, std::hypot(p.x, p.y), p.z, margin);
+        if (n(0) == 360 || side == Side::out) return side;
+        const Real angle = n(0) * std::numbers::pi_v<Real> / 180;
+        const Side start = side_of(-p.y, margin);
+        const Side end = side_of(std::cos(angle) * p.y - std::sin(angle) * p.x, margin);
+        return both(side, n(0) <= 180 ? both(start, end) : std::max(start, end));
+    }
+    const Real z = m.centred ? p.z + n(0) / 2 : p.z;
+    const Side slab = side_of(std::fabs(z - n(0) / 2) - n(0) / 2, margin);
+    if (slab == Side::out || m.primitive == "prism")
+        return slab == Side::out ? slab : both(slab, classify(*m.outline, p.x, p.y, margin));
+    // A conic sweep, seen at the scale of its lower end.
+    const Real slope = (n(1) - 1) / n(0);
+    const Real q = 1 + slope * z;
+    const Real x = p.x / q, y = p.y / q;
+    const Real wide = margin * (1 + std::fabs(slope) * std::hypot(x, y)) / q;
+    if (!(q > 0) || !(wide < 1)) return Side::unclear;
+    return both(slab, classify(*m.outline, x, y, wide));
+}
+
 RealMap inverse_of(const Affine& map) {
     Real a[3][3];
     for (int i = 0; i < 3; ++i) {
@@ -156,6 +197,15 @@ ModelPtr halfspace(Vec3 normal, double offset) {
 ModelPtr quadric(const solids::Matrix4& m) {
     return leaf("quadric", std::vector<double>(m.begin(), m.end()));
 }
+ModelPtr prism(curves::OutlinePtr outline, double h, bool centred) {
+    return swept("prism", std::move(outline), {h}, centred);
+}
+ModelPtr conic(curves::OutlinePtr outline, double h, double top) {
+    return swept("conic", std::move(outline), {h, top});
+}
+ModelPtr revolve(curves::OutlinePtr outline, double angle) {
+    return swept("revolve", std::move(outline), {angle});
+}
 ModelPtr moved(ModelPtr child, const Affine& map) {
     auto model = std::make_shared<Model>();
     model->is_moved = true;
@@ -182,6 +232,7 @@ csg::Solid build(const ModelPtr& model) {
 
 Side classify(const Model& m, const RealPoint& p, Real margin) {
     if (m.primitive == "quadric") return classify_quadric(m, p, margin);
+    if (m.outline != nullptr) return classify_swept(m, p, margin);
     if (!m.primitive.empty()) return side_of(signed_distance(m, p), margin);
     if (m.is_moved) {
         const RealMap& back = m.back;

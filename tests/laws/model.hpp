@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "raymo/csg/model.hpp"
+#include "raymo/curves/outline.hpp"
 
 namespace raymo::laws {
 
@@ -33,6 +34,7 @@ struct RealMap {
 struct Model {
     std::string primitive;  ///< empty for the others
     std::vector<double> numbers;
+    curves::OutlinePtr outline;  ///< of a sweep
     bool centred = false;
     Affine map;  ///< with one child and no primitive: the child is moved
     bool is_moved = false;
@@ -48,6 +50,9 @@ struct Model {
 [[nodiscard]] ModelPtr torus(double ring, double tube);
 [[nodiscard]] ModelPtr halfspace(Vec3 normal, double offset);
 [[nodiscard]] ModelPtr quadric(const solids::Matrix4& m);
+[[nodiscard]] ModelPtr prism(curves::OutlinePtr outline, double h, bool centred = false);
+[[nodiscard]] ModelPtr conic(curves::OutlinePtr outline, double h, double top);
+[[nodiscard]] ModelPtr revolve(curves::OutlinePtr outline, double angle);
 [[nodiscard]] ModelPtr moved(ModelPtr child, const Affine& map);
 [[nodiscard]] ModelPtr moved(ModelPtr child, Vec3 by);
 [[nodiscard]] ModelPtr join(ModelPtr a, ModelPtr b);

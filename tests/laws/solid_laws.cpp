@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "raymo/solids/conformance.hpp"
+#include "tests/laws/contour.hpp"
 #include "tests/laws/rays.hpp"
 
 namespace raymo::laws {
@@ -29,6 +30,15 @@ ModelPtr solid(const std::string& name, Random& random) {
     if (name == "torus") return torus(r, random.chance(0.2) ? r : h);
     if (name == "halfspace")
         return meet(block({8, 8, 8}, true), halfspace(random.direction(), r - 2));
+    if (name == "prism") return prism(random_outline(random, false), h, random.chance(0.5));
+    if (name == "conic") {
+        const double top = random.chance(0.3) ? 0.0 : random.uniform(0, 2);
+        return conic(random_outline(random, false), h, top);
+    }
+    if (name == "revolve") {
+        return revolve(random_outline(random, true),
+                       random.chance(0.5) ? 360.0 : random.uniform(1, 359));
+    }
     solids::Matrix4 m{};
     for (std::size_t i = 0; i < 4; ++i) {
         for (std::size_t j = 0; j <= i; ++j) {
