@@ -87,7 +87,7 @@ TEST_CASE("a conic sweep of a circle is a cone, whichever end is larger") {
     compare<Conic, Cone>({curves::sample_disc(), 7.0, 0.0, false}, {5.0, 0.0, 7.0, false}, 8.0,
                          600);
     compare<Conic, Prism>({curves::sample_rosette(), 7.0, 1.0, true},
-                          {curves::sample_rosette(), 7.0, true}, 25.0, 1500);
+                          {curves::sample_rosette(), 7.0, true}, 25.0, 600);
 }
 
 TEST_CASE("a turned circle is a torus, a half-disc a sphere, a rectangle a cylinder") {
