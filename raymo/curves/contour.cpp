@@ -1,41 +1,49 @@
 #include "raymo/curves/contour.hpp"
 
+#include <algorithm>
 #include <unordered_map>
-#include <utility>
 
 #include "raymo/core/assert.hpp"
 
 namespace raymo::curves {
 namespace {
 
-/// Calls f(node) for every node once, operands first. Trees may be deep and may share nodes.
-template <class F>
-void visit(const Contour& root, F&& f) {
-    std::unordered_map<const ContourNode*, bool> done;
-    std::vector<std::pair<const Contour*, std::size_t>> open{{&root, 0}};
-    while (!open.empty()) {
-        auto& [contour, next] = open.back();
-        const ContourNode& node = **contour;
-        if (next < node.operands.size()) {
-            const Contour& operand = node.operands[next++];
-            if (!done.contains(operand.get())) open.emplace_back(&operand, 0);
-            continue;
-        }
-        if (done.emplace(&node, true).second) f(node);
-        open.pop_back();
-    }
+/// What malloc adds to a block.
+constexpr double kBlock = 16.0;
+
+std::shared_ptr<ContourNode> outline_node(OutlinePtr outline) {
+    auto node = std::make_shared<ContourNode>();
+    node->outline = std::move(outline);
+    return node;
 }
+
+struct PairHash {
+    std::size_t operator()(const std::pair<const ContourNode*, const ContourNode*>& p) const {
+        const auto a = reinterpret_cast<std::uintptr_t>(p.first);
+        const auto b = reinterpret_cast<std::uintptr_t>(p.second);
+        return (a * 0x9E3779B97F4A7C15ULL) ^ (b * 0xC2B2AE3D27D4EB4FULL >> 7);
+    }
+};
 
 }  // namespace
 
+ContourNode::~ContourNode() {
+    for (Contour& operand : operands) let_go(std::move(operand), [](const ContourNode&) {});
+}
+
 Contour contour_of(Outline outline) {
-    auto node = std::make_shared<ContourNode>();
-    node->outline = std::make_shared<const Outline>(std::move(outline));
-    return node;
+    return outline_node(std::make_shared<const Outline>(std::move(outline)));
+}
+
+Contour contour_of(Curve curve) {
+    Outline outline;
+    outline.curves.push_back(std::move(curve));
+    return contour_of(std::move(outline));
 }
 
 Contour combined(ContourOp op, std::vector<Contour> operands) {
     RAYMO_ASSERT(op != ContourOp::outline && !operands.empty());
+    if (operands.size() == 1) return std::move(operands[0]);
     auto node = std::make_shared<ContourNode>();
     node->op = op;
     node->operands = std::move(operands);
@@ -44,19 +52,24 @@ Contour combined(ContourOp op, std::vector<Contour> operands) {
 
 Contour mapped(const Contour& contour, const Affine2& map) {
     std::unordered_map<const ContourNode*, Contour> images;
+    std::unordered_map<const Outline*, OutlinePtr> outlines;
     visit(contour, [&](const ContourNode& node) {
-        auto image = std::make_shared<ContourNode>();
-        image->op = node.op;
         if (node.op == ContourOp::outline) {
-            Outline outline = *node.outline;
-            for (Curve& curve : outline.curves) {
-                for (Span2& span : curve.spans) span = mapped(span, map);
+            OutlinePtr& image = outlines[node.outline.get()];
+            if (image == nullptr) {
+                Outline outline = *node.outline;
+                for (Curve& curve : outline.curves) {
+                    for (Span2& span : curve.spans) span = mapped(span, map);
+                }
+                image = std::make_shared<const Outline>(std::move(outline));
             }
-            image->outline = std::make_shared<const Outline>(std::move(outline));
+            images[&node] = outline_node(image);
+            return;
         }
-        for (const Contour& operand : node.operands)
-            image->operands.push_back(images[operand.get()]);
-        images[&node] = std::move(image);
+        std::vector<Contour> operands;
+        operands.reserve(node.operands.size());
+        for (const Contour& operand : node.operands) operands.push_back(images[operand.get()]);
+        images[&node] = combined(node.op, std::move(operands));
     });
     return images[contour.get()];
 }
@@ -68,6 +81,50 @@ bool is_open(const Contour& contour) {
         for (const Curve& curve : node.outline->curves) open = open || !curve.closed;
     });
     return open;
+}
+
+bool is_equal(const Contour& a, const Contour& b) {
+    using Pair = std::pair<const ContourNode*, const ContourNode*>;
+    std::unordered_set<Pair, PairHash> seen;  // equal, unless a difference is found
+    std::vector<Pair> open{{a.get(), b.get()}};
+    while (!open.empty()) {
+        const auto [x, y] = open.back();
+        open.pop_back();
+        if (x == y || !seen.insert({x, y}).second) continue;
+        if (x->op != y->op || x->operands.size() != y->operands.size()) return false;
+        if (x->op == ContourOp::outline) {
+            if (x->outline != y->outline && !(*x->outline == *y->outline)) return false;
+            continue;
+        }
+        for (std::size_t i = 0; i < x->operands.size(); ++i)
+            open.emplace_back(x->operands[i].get(), y->operands[i].get());
+    }
+    return true;
+}
+
+double bytes_of(const Outline& outline) {
+    double bytes = sizeof(Outline) + 2.0 * kBlock;
+    for (const Curve& curve : outline.curves) {
+        bytes +=
+            sizeof(Curve) + kBlock + static_cast<double>(curve.spans.capacity() * sizeof(Span2));
+    }
+    return bytes;
+}
+
+double bytes_of(const ContourNode& node) {
+    return sizeof(ContourNode) + 2.0 * kBlock +
+           static_cast<double>(node.operands.capacity() * sizeof(Contour));
+}
+
+double bytes_of(const Contour& contour) {
+    double bytes = 0.0;
+    std::unordered_set<const Outline*> outlines;
+    visit(contour, [&](const ContourNode& node) {
+        bytes += bytes_of(node);
+        if (node.outline != nullptr && outlines.insert(node.outline.get()).second)
+            bytes += bytes_of(*node.outline);
+    });
+    return bytes;
 }
 
 }  // namespace raymo::curves

@@ -1,11 +1,16 @@
-// Contours as values: an immutable, shared tree of outlines and their Booleans.
+// Contours as values: an immutable, shared graph of outlines and their Booleans.
 //
 // What is swept along a contour of several outlines is the same Boolean of what each sweeps, exactly; so no curve is ever cut
-// by another one.
+// by another one. An outline keeps its pointer through Booleans, so that what is made of it can be shared, too.
+//
+// Graphs may be a million nodes deep, and a node may be reached on 2^100 paths. Everything here takes each node once and
+// keeps its place in a list, never on the call stack; that holds for freeing, too. A node is let go by one thread at a time.
 #pragma once
 
 #include <memory>
 #include <span>
+#include <unordered_set>
+#include <utility>
 
 #include "raymo/curves/outline.hpp"
 
@@ -21,14 +26,62 @@ struct ContourNode {
     ContourOp op = ContourOp::outline;
     OutlinePtr outline;             ///< of an outline
     std::vector<Contour> operands;  ///< of the others: at least one
+
+    ContourNode() = default;
+    ContourNode(const ContourNode&) = delete;
+    ContourNode& operator=(const ContourNode&) = delete;
+    ~ContourNode();
 };
 
 [[nodiscard]] Contour contour_of(Outline outline);
-/// operands.size() >= 1.
+[[nodiscard]] Contour contour_of(Curve curve);
+/// operands.size() >= 1. A single operand is the result itself.
 [[nodiscard]] Contour combined(ContourOp op, std::vector<Contour> operands);
-/// The image under an affine map; curves that several operands share are mapped once each.
+/// The image under an affine map; nodes and outlines that several operands share are mapped once each.
 [[nodiscard]] Contour mapped(const Contour& contour, const Affine2& map);
 /// Whether any of its curves is open.
 [[nodiscard]] bool is_open(const Contour& contour);
+/// The same Booleans of the same curves.
+[[nodiscard]] bool is_equal(const Contour& a, const Contour& b);
+
+/// Calls f(node) for every node once, operands before what is made of them.
+template <class F>
+void visit(const Contour& contour, F&& f) {
+    std::unordered_set<const ContourNode*> done;
+    std::vector<std::pair<const ContourNode*, std::size_t>> open{{contour.get(), 0}};
+    while (!open.empty()) {
+        const ContourNode* const node = open.back().first;
+        if (open.back().second < node->operands.size()) {
+            const ContourNode* const operand = node->operands[open.back().second++].get();
+            if (!done.contains(operand)) open.emplace_back(operand, 0);
+            continue;
+        }
+        open.pop_back();
+        if (done.insert(node).second) f(*node);
+    }
+}
+
+/// Lets go of a contour; calls f(node) for each node that nobody else holds, just before it goes.
+template <class F>
+void let_go(Contour contour, F&& f) {
+    std::vector<Contour> doomed;
+    doomed.push_back(std::move(contour));
+    while (!doomed.empty()) {
+        const Contour last = std::move(doomed.back());
+        doomed.pop_back();
+        if (last.use_count() != 1) continue;
+        f(*last);
+        // No handle is left that could see it change; nodes are not made const.
+        auto& operands = const_cast<ContourNode&>(*last).operands;
+        for (Contour& operand : operands) doomed.push_back(std::move(operand));
+        operands.clear();
+    }
+}
+
+/// Bytes of an outline, and of a node without its outline and its operands.
+[[nodiscard]] double bytes_of(const Outline& outline);
+[[nodiscard]] double bytes_of(const ContourNode& node);
+/// Bytes of a whole contour: what a copy of it costs.
+[[nodiscard]] double bytes_of(const Contour& contour);
 
 }  // namespace raymo::curves
