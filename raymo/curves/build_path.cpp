@@ -213,6 +213,19 @@ Path mapped(const Path& path, const Affine& map, double factor) {
     return out;
 }
 
+double extent_of(const Path& path) {
+    double size = 0.0;
+    for (const PathSpan& s : path.spans) {
+        for (const Bernstein<3>* c : {&s.x, &s.y, &s.z, &s.r}) {
+            for (const double x : *c) {
+                const double at = std::fabs(x);
+                size = at <= size ? size : (at > size ? at : Aabb::kInf);
+            }
+        }
+    }
+    return size;
+}
+
 double bytes_of(const Path& path) {
     return sizeof(Path) + 32.0 + static_cast<double>(path.spans.capacity() * sizeof(PathSpan));
 }

@@ -51,6 +51,9 @@ using PathFunction = std::function<Result<Point<4>>(double)>;
 /// The image under a map that keeps angles and multiplies lengths by `factor` > 0.
 [[nodiscard]] Path mapped(const Path& path, const Affine& map, double factor);
 
+/// Largest coordinate or radius of its control points; infinite when one is not a number.
+[[nodiscard]] double extent_of(const Path& path);
+
 /// Bytes of a path.
 [[nodiscard]] double bytes_of(const Path& path);
 

@@ -74,6 +74,22 @@ Contour mapped(const Contour& contour, const Affine2& map) {
     return images[contour.get()];
 }
 
+double extent_of(const Contour& contour) {
+    double size = 0.0;
+    visit(contour, [&](const ContourNode& node) {
+        if (node.op != ContourOp::outline) return;
+        for (const Curve& curve : node.outline->curves) {
+            for (const Span2& span : curve.spans) {
+                for (std::size_t i = 0; i < 4; ++i) {
+                    const double at = max_norm(span.point(i));
+                    size = at <= size ? size : (at > size ? at : Aabb::kInf);
+                }
+            }
+        }
+    });
+    return size;
+}
+
 bool is_open(const Contour& contour) {
     bool open = false;
     visit(contour, [&](const ContourNode& node) {

@@ -39,6 +39,8 @@ struct ContourNode {
 [[nodiscard]] Contour combined(ContourOp op, std::vector<Contour> operands);
 /// The image under an affine map; nodes and outlines that several operands share are mapped once each.
 [[nodiscard]] Contour mapped(const Contour& contour, const Affine2& map);
+/// Largest coordinate of its control points; infinite when one is not a number.
+[[nodiscard]] double extent_of(const Contour& contour);
 /// Whether any of its curves is open.
 [[nodiscard]] bool is_open(const Contour& contour);
 /// The same Booleans of the same curves.

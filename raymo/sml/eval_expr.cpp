@@ -49,10 +49,11 @@ bool Evaluator::eval(NodeId id, Value& out) {
             return eval_record(n, out);
         case NodeKind::range: {
             double low = 0.0;
+            double high = 0.0;
             double step_size = 0.0;
             double count = 0.0;
-            if (!eval_range(n, id, low, step_size, count)) return false;
-            out = Value::object(new RangeObject(low, step_size, count));
+            if (!eval_range(n, id, low, high, step_size, count)) return false;
+            out = Value::object(new RangeObject(low, high, step_size, count));
             return true;
         }
         case NodeKind::all_of:
@@ -176,9 +177,8 @@ double range_count(double low, double high, double step, bool is_open) {
     return std::floor(steps) + 1.0;
 }
 
-bool Evaluator::eval_range(const Node& n, NodeId id, double& low, double& step_size,
+bool Evaluator::eval_range(const Node& n, NodeId id, double& low, double& high, double& step_size,
                            double& count) {
-    double high = 0.0;
     step_size = 1.0;
     if (!number_of(ast_.child(n, 0), "the beginning of a range", low) ||
         !number_of(ast_.child(n, 1), "the end of a range", high)) {
@@ -304,7 +304,9 @@ bool Evaluator::eval_minus(const Node& n, NodeId id, Value& out) {
                       operand, out);
     }
     return fail(ErrorCode::bad_argument, span(operand), "`-` needs a number or a vector",
-                value.is(Tag::solid) ? "to take one solid from another, write a - b" : "",
+                value.is(Tag::solid)     ? "to take one solid from another, write a - b"
+                : value.is(Tag::contour) ? "to take one contour from another, write a - b"
+                                         : "",
                 fmt::format("this is {}", kind_text(value)));
 }
 
@@ -427,7 +429,7 @@ bool Evaluator::eval_index(const Node& n, NodeId id, Value& out) {
         if (low < 0) low += size;
         if (high < 0) high += size;
         index = Value::object(new RangeObject(
-            low, 1.0, range_count(low, high, 1.0, range.op == Operator::range_open)));
+            low, high, 1.0, range_count(low, high, 1.0, range.op == Operator::range_open)));
     }
     const RangeObject& slice = index.as<RangeObject>();
     if (!room(16.0 * slice.count, id)) return false;

@@ -5,6 +5,7 @@
 #include <bit>
 #include <cmath>
 
+#include "raymo/curves/build_path.hpp"
 #include "raymo/sml/evaluate.hpp"
 #include "raymo/sml/text.hpp"
 
@@ -71,6 +72,17 @@ bool Evaluator::made(const csg::Solid& solid, bool is_primitive, NodeId site) {
                     "share solids with repeat(), ring() or grid()");
     }
     return step(site);
+}
+
+bool Evaluator::made(curves::Contour contour, double bytes, NodeId site, Value& out) {
+    out = Value::object(new ContourObject(std::move(contour), bytes));
+    return worked(bytes / 64.0, site);
+}
+
+bool Evaluator::made(curves::PathPtr path, NodeId site, Value& out) {
+    const double bytes = curves::bytes_of(*path);
+    out = Value::object(new PathObject(std::move(path)));
+    return worked(bytes / 64.0, site);
 }
 
 csg::MaterialId Evaluator::material(const scene::Material& m) {
@@ -165,7 +177,9 @@ bool Evaluator::exec_expression(const Node& n, NodeId id) {
     if (is_top_level) {
         reporter_.warn(span(node),
                        fmt::format("{} stands alone: it does nothing", kind_text(value)),
-                       "give it a name with `let`, or print() it");
+                       value.is(Tag::contour) ? "make a solid of it: prism(contour, height)"
+                       : value.is(Tag::path)  ? "make a solid of it: sweep(path)"
+                                              : "give it a name with `let`, or print() it");
     } else {
         reporter_.warn(span(node), "this value is not used",
                        value.is(Tag::solid) ? "write `emit` or `return` in front of it"
@@ -191,7 +205,10 @@ bool Evaluator::exec_part(const Node& n) {
         }
     }
     if (!value.is(Tag::solid)) {
-        return fail(ErrorCode::bad_argument, span(node), "a part must be a solid", {},
+        return fail(ErrorCode::bad_argument, span(node), "a part must be a solid",
+                    value.is(Tag::contour) ? "make a solid of it: prism(contour, height)"
+                    : value.is(Tag::path)  ? "make a solid of it: sweep(path)"
+                                           : "",
                     fmt::format("this is {}", kind_text(value)));
     }
     if (in_main_file_) add_part(program_.symbols.text(name.symbol), value.solid(), span(node));
@@ -252,10 +269,7 @@ bool Evaluator::check_domain(NodeId domain_id, const std::string& name, const Va
         double step_size = 0.0;
         double count = 0.0;
         double high = 0.0;
-        if (!eval_range(domain, domain_id, low, step_size, count) ||
-            !number_of(ast_.child(domain, 1), "the end of a range", high)) {
-            return false;
-        }
+        if (!eval_range(domain, domain_id, low, high, step_size, count)) return false;
         if (count == 0.0) {
             std::string limits;
             if (low > high) {

@@ -14,9 +14,10 @@ bool Evaluator::for_each(NodeId source, F&& f) {
     const Node& n = ast_[source];
     if (n.kind == NodeKind::range) {
         double low = 0.0;
+        double high = 0.0;
         double step_size = 0.0;
         double count = 0.0;
-        if (!eval_range(n, source, low, step_size, count)) return false;
+        if (!eval_range(n, source, low, high, step_size, count)) return false;
         for (double i = 0; i < count; ++i) {
             if (!step(source)) return false;
             if (!f(Value::number(low + i * step_size))) return false;

@@ -67,6 +67,16 @@ public:
     bool room(double bytes, NodeId site);
     /// Counts a new node of a solid. `is_primitive`: against the limit of solids too.
     bool made(const csg::Solid& solid, bool is_primitive, NodeId site);
+    /// Counts work that a program can repeat: `units` of some 100 ns. False: a limit was passed or the user stopped.
+    bool worked(double units, NodeId site) {
+        return units < kStepsBetweenChecks ? step(site) : check_limits(site);
+    }
+    /// A new contour as a value. `bytes`: what was made for it.
+    bool made(curves::Contour contour, double bytes, NodeId site, Value& out);
+    bool made(curves::PathPtr path, NodeId site, Value& out);
+    /// A Boolean of contours.
+    bool combine(curves::ContourOp op, std::vector<curves::Contour> operands, NodeId site,
+                 Value& out);
     /// A Boolean of two solids or `nothing`.
     bool combine(csg::Op op, std::vector<csg::Solid> operands, NodeId site, SourceSpan span,
                  Value& out);
@@ -123,7 +133,8 @@ private:
     bool eval_name(const Node& n, NodeId id, Value& out);
     bool eval_list(const Node& n, NodeId id, Value& out);
     bool eval_record(const Node& n, Value& out);
-    bool eval_range(const Node& n, NodeId id, double& low, double& step, double& count);
+    bool eval_range(const Node& n, NodeId id, double& low, double& high, double& step,
+                    double& count);
     bool eval_binary(const Node& n, NodeId id, Value& out);
     bool eval_chain(const Node& n, NodeId id, Value& out);
     /// For a record without the field `written`: a name like it, and the fields it has.

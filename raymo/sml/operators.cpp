@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "raymo/core/assert.hpp"
+#include "raymo/curves/contour.hpp"
 #include "raymo/sml/arithmetic.hpp"
 #include "raymo/sml/evaluate.hpp"
 #include "raymo/sml/text.hpp"
@@ -57,11 +59,27 @@ std::string_view remedy(Operator op, const Value& a, const Value& b) {
     if (a.is(Tag::function) || b.is(Tag::function) || a.is(Tag::builtin) || b.is(Tag::builtin)) {
         return "call the function: f(...)";
     }
-    if (a.is(Tag::solid) && b.is(Tag::list)) return "use union(list)";
-    if (op == Operator::intersect && !a.is(Tag::solid) && !b.is(Tag::solid))
+    const bool has_solid = a.is(Tag::solid) || b.is(Tag::solid);
+    const bool has_contour = a.is(Tag::contour) || b.is(Tag::contour);
+    const bool has_path = a.is(Tag::path) || b.is(Tag::path);
+    const bool has_number = a.is(Tag::number) || b.is(Tag::number);
+    if (has_solid && has_contour)
+        return "make a solid of the contour first: prism(contour, height)";
+    if (has_path && (has_solid || has_contour || (a.is(Tag::path) && b.is(Tag::path))))
+        return "make a solid of the path first: sweep(path)";
+    if ((a.is(Tag::solid) || a.is(Tag::contour)) && b.is(Tag::list)) return "use union(list)";
+    if (op == Operator::intersect && !has_solid && !has_contour && !has_path)
         return "`&` intersects solids; to join conditions, write `and`";
-    if ((a.is(Tag::solid) || b.is(Tag::solid)) && (a.is(Tag::number) || b.is(Tag::number))) {
+    if ((has_solid || has_contour || has_path) && has_number) {
         const bool sizes = op == Operator::multiply || op == Operator::divide;
+        if (has_contour) {
+            return sizes ? "to change its size, write contour.scale(factor)"
+                         : "to move it, write contour.move(x, y)";
+        }
+        if (has_path) {
+            return sizes ? "to change its size, write path.scale(factor)"
+                         : "to move it, write path.move(x, y, z)";
+        }
         return sizes ? "to change its size, write solid.scale(factor)"
                      : "to move it, write solid.move(x, y, z)";
     }
@@ -82,6 +100,14 @@ bool Evaluator::combine(csg::Op op, std::vector<csg::Solid> operands, NodeId sit
     }
     out = Value::solid(csg::boolean(op, std::move(operands), where));
     return made(out.solid(), false, site);
+}
+
+bool Evaluator::combine(curves::ContourOp op, std::vector<curves::Contour> operands, NodeId site,
+                        Value& out) {
+    RAYMO_ASSERT(operands.size() > 1);
+    curves::Contour contour = curves::combined(op, std::move(operands));
+    const double bytes = curves::bytes_of(*contour);
+    return made(std::move(contour), bytes, site, out);
 }
 
 bool Evaluator::binary(Operator op, const Value& a, const Value& b, NodeId site, SourceSpan where,
@@ -160,12 +186,21 @@ bool Evaluator::binary(Operator op, const Value& a, const Value& b, NodeId site,
                                                                : csg::Op::intersection;
             return combine(boolean, {a.solid(), b.solid()}, site, where, out);
         }
-        // `nothing` is the empty solid: a sum may begin with it, or have a part that is left out.
-        if (joins && a.is(Tag::solid) && b.is(Tag::nothing)) {
+        if (a.is(Tag::contour) && b.is(Tag::contour)) {
+            const curves::ContourOp boolean = op == Operator::add ? curves::ContourOp::unite
+                                              : op == Operator::subtract
+                                                  ? curves::ContourOp::difference
+                                                  : curves::ContourOp::intersection;
+            return combine(boolean, {a.as<ContourObject>().value, b.as<ContourObject>().value},
+                           site, out);
+        }
+        // `nothing` is the empty solid and the empty contour: a sum may begin with it, or have a part that is left out.
+        if (joins && (a.is(Tag::solid) || a.is(Tag::contour)) && b.is(Tag::nothing)) {
             out = a;
             return true;
         }
-        if (op == Operator::add && a.is(Tag::nothing) && (b.is(Tag::solid) || b.is(Tag::nothing))) {
+        if (op == Operator::add && a.is(Tag::nothing) &&
+            (b.is(Tag::solid) || b.is(Tag::contour) || b.is(Tag::nothing))) {
             out = b;
             return true;
         }
@@ -237,6 +272,15 @@ bool Evaluator::equal(const Value& a, const Value& b, NodeId site, bool& out) {
         case Tag::light:
             out = a.as<LightObject>().value == b.as<LightObject>().value;
             return true;
+        case Tag::contour:
+            out = curves::is_equal(a.as<ContourObject>().value, b.as<ContourObject>().value);
+            return true;
+        case Tag::path: {
+            const auto& x = a.as<PathObject>().value;
+            const auto& y = b.as<PathObject>().value;
+            out = x == y || *x == *y;
+            return true;
+        }
         case Tag::range: {
             const auto& x = a.as<RangeObject>();
             const auto& y = b.as<RangeObject>();

@@ -1,8 +1,10 @@
 #include "raymo/sml/value.hpp"
 
 #include <array>
+#include <concepts>
 
 #include "raymo/core/assert.hpp"
+#include "raymo/curves/build_path.hpp"
 
 namespace raymo::sml {
 namespace {
@@ -34,6 +36,12 @@ void free_object(Object* object) {
             return;
         case Tag::random:
             delete static_cast<RandomObject*>(object);
+            return;
+        case Tag::contour:
+            delete static_cast<ContourObject*>(object);
+            return;
+        case Tag::path:
+            delete static_cast<PathObject*>(object);
             return;
         case Tag::material:
             delete static_cast<MaterialObject*>(object);
@@ -189,18 +197,51 @@ FunctionObject::~FunctionObject() {
                             static_cast<double>(captures.capacity() * sizeof(Value)));
 }
 
+ContourObject::ContourObject(curves::Contour c, double bytes)
+    : Object(Tag::contour), value(std::move(c)) {
+    Heap::current().charge(sizeof(ContourObject) + kBlock + bytes);
+}
+ContourObject::~ContourObject() {
+    double bytes = sizeof(ContourObject) + kBlock;
+    curves::let_go(std::move(value), [&](const curves::ContourNode& node) {
+        bytes += curves::bytes_of(node);
+        // A solid that was made of an outline keeps it.
+        if (node.outline.use_count() == 1) bytes += curves::bytes_of(*node.outline);
+    });
+    Heap::current().release(bytes);
+}
+
+PathObject::PathObject(curves::PathPtr p) : Object(Tag::path), value(std::move(p)) {
+    Heap::current().charge(sizeof(PathObject) + kBlock + curves::bytes_of(*value));
+}
+PathObject::~PathObject() {
+    Heap::current().release(sizeof(PathObject) + kBlock +
+                            (value.use_count() == 1 ? curves::bytes_of(*value) : 0.0));
+}
+
 std::string_view kind_text(const Value& value) {
     static constexpr auto kTexts = std::to_array<std::string_view>(
         {"no value", "nothing", "a boolean", "a number", "a function", "a solid", "a string",
-         "a list", "a record", "a range", "a function", "a function", "a material", "a transform",
-         "a camera", "a light", "a variable"});
+         "a list", "a record", "a range", "a function", "a function", "a contour", "a path",
+         "a material", "a transform", "a camera", "a light", "a variable"});
     return kTexts[static_cast<std::size_t>(value.tag())];
 }
 
 double bytes_of(const csg::Node& node) {
     switch (node.kind) {
         case csg::NodeKind::leaf:
-            return sizeof(csg::LeafNode) + kBlock;
+            return sizeof(csg::LeafNode) + kBlock +
+                   std::visit(
+                       [](const auto& kernel) {
+                           if constexpr (requires {
+                                             { kernel.bytes() } -> std::convertible_to<double>;
+                                         }) {
+                               return static_cast<double>(kernel.bytes());
+                           } else {
+                               return 0.0;
+                           }
+                       },
+                       csg::as_leaf(node).solid.kernel);
         case csg::NodeKind::transform:
             return sizeof(csg::TransformNode) + kBlock;
         case csg::NodeKind::paint:

@@ -14,6 +14,8 @@
 #include <vector>
 
 #include "raymo/csg/model.hpp"
+#include "raymo/curves/contour.hpp"
+#include "raymo/curves/path.hpp"
 #include "raymo/math/affine.hpp"
 #include "raymo/scene/camera.hpp"
 #include "raymo/scene/light.hpp"
@@ -36,6 +38,8 @@ enum class Tag : std::uint8_t {
     range,
     function,
     random,
+    contour,
+    path,
     material,
     transform,
     camera,
@@ -202,14 +206,15 @@ struct RecordObject : Object {
     [[nodiscard]] const Value* find(Symbol name) const;
     std::vector<std::pair<Symbol, Value>> fields;
 };
-/// The numbers low + i step, 0 <= i < count.
+/// The numbers low + i step, 0 <= i < count; written low..high.
 struct RangeObject : Object {
-    RangeObject(double lo, double s, double n) : Object(Tag::range), low(lo), step(s), count(n) {
+    RangeObject(double lo, double hi, double s, double n)
+        : Object(Tag::range), low(lo), high(hi), step(s), count(n) {
         Heap::current().charge(sizeof(RangeObject));
     }
     ~RangeObject() { Heap::current().release(sizeof(RangeObject)); }
     [[nodiscard]] double at(double i) const { return low + i * step; }
-    double low, step, count;
+    double low, high, step, count;
 };
 struct CellObject : Object {
     explicit CellObject(Value v);
@@ -231,6 +236,18 @@ struct RandomObject : Object {
     }
     ~RandomObject() { Heap::current().release(sizeof(RandomObject)); }
     std::uint64_t state;
+};
+/// Counts what goes when it goes: nodes and outlines that no other contour holds.
+struct ContourObject : Object {
+    /// `bytes`: what was made for it, nodes and outlines.
+    ContourObject(curves::Contour c, double bytes);
+    ~ContourObject();
+    curves::Contour value;
+};
+struct PathObject : Object {
+    explicit PathObject(curves::PathPtr p);
+    ~PathObject();
+    curves::PathPtr value;
 };
 template <class T, Tag kTag>
 struct BoxObject : Object {

@@ -2,6 +2,7 @@
 // listed in table.cpp. Primitives are not in any table: they come from solids::inventory().
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -20,7 +21,8 @@ using BuiltinFunction = bool (*)(Call& call, Value& out);
 /// One row of a topic's table.
 struct BuiltinRow {
     std::string_view name;
-    /// Parameters, parted by spaces: `x` required, `x?` optional, `x*` any number, behind `|` by name only.
+    /// Parameters, parted by spaces: `x` required, `x?` optional, `x*` any number, behind `|` by name only. `r/d`: `d`, by
+    /// name, gives twice `r`.
     std::string_view parameters;
     BuiltinFunction run;
     std::string_view doc;
@@ -75,6 +77,8 @@ struct GivenArgument {
 [[nodiscard]] std::span<const BuiltinRow> list_rows();
 [[nodiscard]] std::span<const BuiltinRow> text_rows();
 [[nodiscard]] std::span<const BuiltinRow> solid_rows();
+[[nodiscard]] std::span<const BuiltinRow> contour_rows();
+[[nodiscard]] std::span<const BuiltinRow> path_rows();
 [[nodiscard]] std::span<const BuiltinRow> transform_rows();
 [[nodiscard]] std::span<const BuiltinRow> arrangement_rows();
 [[nodiscard]] std::span<const BuiltinRow> look_rows();
@@ -83,6 +87,11 @@ struct GivenArgument {
 [[nodiscard]] std::span<const std::string_view> unavailable_names();
 /// Runs the primitive of the call's row.
 bool make_primitive(Call& call, Value& out);
+/// The Boolean of what make(outline) makes for each outline of a contour, as the contour is the Boolean of its outlines.
+/// make() is called once for each outline, however often the contour uses it. Cost: one visit of each node of the contour.
+bool for_each_outline(Call& call, const curves::Contour& contour,
+                      const std::function<bool(const curves::OutlinePtr&, Value&)>& make,
+                      Value& out);
 bool report_unavailable(Call& call, Value& out);
 
 }  // namespace raymo::sml

@@ -9,6 +9,19 @@
 
 namespace raymo::sml {
 
+std::string operand_label(const Value& value, bool is_in_list) {
+    return is_in_list ? fmt::format("this list has {} in it", kind_text(value))
+                      : fmt::format("this is {}", kind_text(value));
+}
+
+bool is_vector2(const Value& value, Vec2& out) {
+    if (!value.is(Tag::list) || value.items().size() != 2) return false;
+    const auto& items = value.items();
+    if (!items[0].is(Tag::number) || !items[1].is(Tag::number)) return false;
+    out = {items[0].number(), items[1].number()};
+    return true;
+}
+
 bool is_vector(const Value& value, Vec3& out) {
     if (!value.is(Tag::list) || value.items().size() != 3) return false;
     for (std::size_t i = 0; i < 3; ++i) {
@@ -62,6 +75,25 @@ bool Call::wrong_kind(std::size_t i, std::string_view expected, std::string hint
     return fail(i, ErrorCode::bad_argument,
                 fmt::format("{} must be {}", argument_name(i), expected), std::move(hint),
                 fmt::format("this is {}", kind_text(slots_[i])));
+}
+
+bool Call::fail(Error error, std::span<const std::size_t> slots) {
+    error.message = fmt::format("{}: {}", name(), error.message);
+    if (error.argument >= 0 && static_cast<std::size_t>(error.argument) < slots.size()) {
+        const std::size_t i = slots[static_cast<std::size_t>(error.argument)];
+        error.where = where(i);
+        // What was written is shown: a diameter, not the radius made of it.
+        if (i < builtin_.takes.parameters.size() && builtin_.takes.parameters[i].stands_for >= 0 &&
+            has(i) && slots_[i].is(Tag::number)) {
+            error.label = "this is " + number_text(slots_[i].number());
+        }
+    }
+    return fail(std::move(error));
+}
+
+void Call::warn(std::string_view message, std::string hint) {
+    if (!evaluator_.warned_.insert(node_).second) return;
+    evaluator_.reporter_.warn(span(), fmt::format("{}: {}", name(), message), std::move(hint));
 }
 
 bool Call::number(std::size_t i, double& out) {
@@ -136,6 +168,70 @@ bool Call::solid(std::size_t i, csg::Solid& out) {
     }
     const bool is_list = has(i) && slots_[i].is(Tag::list);
     return wrong_kind(i, "a solid", is_list ? "union(list) makes one solid of a list" : "");
+}
+
+bool Call::contour(std::size_t i, curves::Contour& out) {
+    if (has(i) && slots_[i].is(Tag::contour)) {
+        out = slots_[i].as<ContourObject>().value;
+        return true;
+    }
+    const bool is_list = has(i) && slots_[i].is(Tag::list);
+    return wrong_kind(i, "a contour",
+                      is_list ? "polygon(points) makes one of a list of points" : "");
+}
+
+bool Call::path(std::size_t i, curves::PathPtr& out) {
+    if (has(i) && slots_[i].is(Tag::path)) {
+        out = slots_[i].as<PathObject>().value;
+        return true;
+    }
+    const bool is_list = has(i) && slots_[i].is(Tag::list);
+    return wrong_kind(i, "a path",
+                      is_list ? "path(points, radius: r) makes one of a list of points" : "");
+}
+
+bool Call::vector2(std::size_t i, Vec2& out) {
+    if (has(i) && is_vector2(slots_[i], out)) return true;
+    if (has(i) && slots_[i].is(Tag::list)) {
+        return fail(i, ErrorCode::bad_argument,
+                    fmt::format("{} must be two numbers", argument_name(i)), "write it as (x, y)",
+                    fmt::format("this is a list of {}", slots_[i].items().size()));
+    }
+    return wrong_kind(i, "two numbers", "write it as (x, y)");
+}
+
+bool Call::points(std::size_t i, std::vector<Vec2>& out) {
+    if (!has(i) || !slots_[i].is(Tag::list)) {
+        return wrong_kind(i, "a list of points", "write it as [(0, 0), (10, 0), (10, 5)]");
+    }
+    const auto& items = slots_[i].items();
+    if (!evaluator_.room(500.0 * static_cast<double>(items.size()), node_)) return false;
+    out.clear();
+    out.reserve(items.size());
+    for (std::size_t k = 0; k < items.size(); ++k) {
+        Vec2 p;
+        if (!is_vector2(items[k], p)) {
+            const bool is_list = items[k].is(Tag::list);
+            return fail(i, ErrorCode::bad_argument,
+                        fmt::format("{} must be a list of points of two numbers", argument_name(i)),
+                        "a point is written (x, y)",
+                        is_list ? fmt::format("[{}] is a list of {}", k, items[k].items().size())
+                                : fmt::format("[{}] is {}", k, kind_text(items[k])));
+        }
+        out.push_back(p);
+    }
+    return evaluator_.worked(static_cast<double>(items.size()), node_);
+}
+
+bool Call::half(std::size_t i, double& out, std::size_t& given) {
+    const auto& parameters = builtin_.takes.parameters;
+    given = i;
+    for (std::size_t k = 0; k < parameters.size(); ++k) {
+        if (parameters[k].stands_for == static_cast<int>(i) && has(k)) given = k;
+    }
+    if (!number(given, out)) return false;
+    if (given != i) out *= 0.5;
+    return true;
 }
 
 bool Call::list(std::size_t i, std::vector<Value>& out) {

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "raymo/curves/build_spline.hpp"
+#include "raymo/math/vec2.hpp"
 #include "raymo/sml/evaluate.hpp"
 
 namespace raymo::sml {
@@ -54,6 +56,14 @@ public:
     bool axis(std::size_t i, Vec3& out);
     bool text(std::size_t i, std::string& out);
     bool solid(std::size_t i, csg::Solid& out);
+    bool contour(std::size_t i, curves::Contour& out);
+    bool path(std::size_t i, curves::PathPtr& out);
+    /// Two numbers, (x, y).
+    bool vector2(std::size_t i, Vec2& out);
+    /// A list of points of the plane.
+    bool points(std::size_t i, std::vector<Vec2>& out);
+    /// A length that may be given as twice itself under its other name; `given` is the argument that was written.
+    bool half(std::size_t i, double& out, std::size_t& given);
     /// A list; a range becomes one.
     bool list(std::size_t i, std::vector<Value>& out);
     bool function(std::size_t i);
@@ -78,6 +88,10 @@ public:
     bool result(double value, Value& out);
     /// A new solid: counted, and given out.
     bool result(Result<csg::Solid> solid, Value& out);
+    /// An error of a function that builds curves; `slots` are the arguments that its parameters were taken from.
+    bool fail(Error error, std::span<const std::size_t> slots);
+    /// A warning at the call, once for each place in the program.
+    void warn(std::string_view message, std::string hint);
 
     /// What argument `i` is called in messages.
     [[nodiscard]] std::string argument_name(std::size_t i) const;
@@ -92,6 +106,14 @@ private:
     std::uint32_t first_;
 };
 
+/// The arguments `degree` and `ends` of a spline, where they are given; `form` has its kind and whether it is closed.
+bool spline_degree(Call& call, std::size_t i, curves::SplineForm& form);
+bool spline_ends(Call& call, std::size_t i, curves::SplineForm& form);
+
+/// "this is a number", or "this list has a number in it".
+[[nodiscard]] std::string operand_label(const Value& value, bool is_in_list);
+/// Two numbers of a list; false when it is something else.
+[[nodiscard]] bool is_vector2(const Value& value, Vec2& out);
 /// Three numbers of a list; false when it is something else.
 [[nodiscard]] bool is_vector(const Value& value, Vec3& out);
 /// A CSS colour name or "#rgb", "#rrggbb"; components 0..1 in sRGB.

@@ -147,7 +147,7 @@ bool zip(Call& call, Value& out) {
     return true;
 }
 
-// Of numbers, vectors or solids.
+// Of numbers, vectors, solids or contours.
 bool sum(Call& call, Value& out) {
     std::vector<Value> items;
     if (!call.list(0, items)) return false;
@@ -160,6 +160,15 @@ bool sum(Call& call, Value& out) {
         for (const Value& item : items) operands.push_back(item.solid());
         return call.evaluator().combine(csg::Op::unite, std::move(operands), call.node(),
                                         call.span(), out);
+    }
+    if (std::all_of(items.begin(), items.end(),
+                    [](const Value& v) { return v.is(Tag::contour); })) {
+        std::vector<curves::Contour> operands;
+        for (const Value& item : items) operands.push_back(item.as<ContourObject>().value);
+        if (operands.size() > 1) {
+            return call.evaluator().combine(curves::ContourOp::unite, std::move(operands),
+                                            call.node(), out);
+        }
     }
     Value total = items[0];
     for (std::size_t i = 1; i < items.size(); ++i) {
@@ -208,7 +217,7 @@ bool range(Call& call, Value& out) {
     const double count = range_count(low, high, step, true);
     if (!(count < 0x1p53))
         return call.fail(ErrorCode::out_of_range, "the range has too many numbers");
-    out = Value::object(new RangeObject(low, step, count));
+    out = Value::object(new RangeObject(low, high, step, count));
     return true;
 }
 
@@ -234,7 +243,7 @@ std::span<const BuiltinRow> list_rows() {
         {"sort", "list by?", &sort, "Ascending; elements that are equal keep their order."},
         {"reverse", "list", &reverse, "From behind."},
         {"zip", "lists*", &zip, "Elements of several lists side by side."},
-        {"sum", "list", &sum, "Of numbers, vectors or solids."},
+        {"sum", "list", &sum, "Of numbers, vectors, solids or contours."},
         {"concat", "lists*", &concat, "One list after the other."},
         {"range", "low high? step?", &range, "Numbers without the end: range(n) is 0..<n."},
         {"enumerate", "list", &enumerate, "[index, element] for every element."},

@@ -2,6 +2,9 @@
 
 #include <fmt/core.h>
 
+#include <functional>
+#include <unordered_map>
+
 #include "raymo/sml/builtins/call.hpp"
 #include "raymo/sml/text.hpp"
 
@@ -9,8 +12,9 @@ namespace raymo::sml {
 namespace {
 
 // One argument of a primitive as its schema asks for it. `slot` is where it stands among the call's parameters.
+// A contour goes to `contour`, since it may stand for several arguments.
 bool take(Call& call, const solids::Param& param, std::size_t slot, std::size_t diameter,
-          solids::Argument& out) {
+          curves::Contour& contour, solids::Argument& out) {
     // The other name of the argument: a diameter for a radius, `dx` for a size.
     const bool is_diameter = diameter > 0 && call.has(diameter);
     if (!call.has(slot) && !is_diameter && param.fallback) {
@@ -80,10 +84,32 @@ bool take(Call& call, const solids::Param& param, std::size_t slot, std::size_t 
         }
         case solids::ParamKind::contour:
         case solids::ParamKind::profile:
-        case solids::ParamKind::path:
-            break;  // no primitive takes one yet
+            if (!call.contour(slot, contour)) return false;
+            if (param.kind == solids::ParamKind::contour && curves::is_open(contour)) {
+                return call.fail(slot, ErrorCode::bad_argument,
+                                 fmt::format("the {} must be closed", param.words),
+                                 "close it with `closed: true`", "this curve is open");
+            }
+            return true;
+        case solids::ParamKind::path: {
+            curves::PathPtr path;
+            if (!call.path(slot, path)) return false;
+            out = std::move(path);
+            return true;
+        }
     }
     return false;
+}
+
+curves::ContourOp contour_op(csg::Op op) {
+    return op == csg::Op::unite        ? curves::ContourOp::unite
+           : op == csg::Op::difference ? curves::ContourOp::difference
+                                       : curves::ContourOp::intersection;
+}
+csg::Op solid_op(curves::ContourOp op) {
+    return op == curves::ContourOp::unite        ? csg::Op::unite
+           : op == curves::ContourOp::difference ? csg::Op::difference
+                                                 : csg::Op::intersection;
 }
 
 // The argument that an error about a schema's parameter points at: of a size, the number that is wrong.
@@ -101,46 +127,63 @@ std::size_t blamed(Call& call, const solids::Param& param, std::size_t slot, std
     return slot;
 }
 
-// union(list), union(a, b, c), and the same for the other Booleans. Without solids: nothing.
+// union(list), union(a, b, c), and the same for the other Booleans. Without operands: nothing.
 bool boolean(Call& call, csg::Op op, Value& out) {
     if (call.has(0) || call.has(1) || call.has(2)) {
         return call.fail(call.has(0) ? 0 : (call.has(1) ? 1 : 2), ErrorCode::not_available,
                          "blends are not available yet", "leave out `blend` for sharp edges");
     }
-    std::vector<csg::Solid> operands;
-    const auto add = [&](const Value& value, std::size_t argument) {
+    std::vector<csg::Solid> solids;
+    std::vector<curves::Contour> contours;
+    Value last;
+    const auto add = [&](const Value& value, std::size_t argument, bool is_in_list) {
+        const auto refuse = [&](std::string_view message, std::string hint) {
+            return call.fail(argument, ErrorCode::bad_argument, message, std::move(hint),
+                             operand_label(value, is_in_list));
+        };
         if (value.is(Tag::nothing) && op != csg::Op::intersection) return true;
         if (value.is(Tag::solid)) {
-            operands.push_back(value.solid());
-            return true;
+            solids.push_back(value.solid());
+        } else if (value.is(Tag::contour)) {
+            contours.push_back(value.as<ContourObject>().value);
+        } else {
+            return refuse(contours.empty() ? "every operand must be a solid"
+                                           : "every operand must be a contour",
+                          value.is(Tag::path) ? "make a solid of it first: sweep(path)" : "");
         }
-        return call.fail(argument, ErrorCode::bad_argument, "every operand must be a solid", {},
-                         fmt::format("this is {}", kind_text(value)));
+        if (!solids.empty() && !contours.empty()) {
+            return refuse("solids and contours do not go together",
+                          "make solids of the contours first: prism(contour, height)");
+        }
+        last = value;
+        return true;
     };
     for (std::size_t i = 0; i < call.rest().size(); ++i) {
         const Value& operand = call.rest()[i];
         const std::size_t argument = call.rest_begin() + i;
         if (!operand.is(Tag::list)) {
-            if (!add(operand, argument)) return false;
+            if (!add(operand, argument, false)) return false;
             continue;
         }
         for (const Value& item : operand.items()) {
-            if (!call.evaluator().step(call.node())) return false;
-            if (!item.is(Tag::solid) && !item.is(Tag::nothing)) {
-                return call.fail(argument, ErrorCode::bad_argument, "every operand must be a solid",
-                                 {}, fmt::format("this list has {} in it", kind_text(item)));
-            }
-            if (!add(item, argument)) return false;
+            if (!call.evaluator().step(call.node()) || !add(item, argument, true)) return false;
         }
     }
-    if (operands.empty()) {
+    if (contours.size() == 1) {
+        out = last;
+        return true;
+    }
+    if (!contours.empty()) {
+        return call.evaluator().combine(contour_op(op), std::move(contours), call.node(), out);
+    }
+    if (solids.empty()) {
         if (op == csg::Op::unite) {
             out = Value::nothing();
             return true;
         }
         return call.fail(ErrorCode::bad_argument, "there are no solids to work on");
     }
-    return call.evaluator().combine(op, std::move(operands), call.node(), call.span(), out);
+    return call.evaluator().combine(op, std::move(solids), call.node(), call.span(), out);
 }
 
 bool unite(Call& call, Value& out) { return boolean(call, csg::Op::unite, out); }
@@ -148,6 +191,38 @@ bool difference(Call& call, Value& out) { return boolean(call, csg::Op::differen
 bool intersection(Call& call, Value& out) { return boolean(call, csg::Op::intersection, out); }
 
 }  // namespace
+
+bool for_each_outline(Call& call, const curves::Contour& contour,
+                      const std::function<bool(const curves::OutlinePtr&, Value&)>& make,
+                      Value& out) {
+    if (contour->op == curves::ContourOp::outline) return make(contour->outline, out);
+    std::unordered_map<const curves::Outline*, csg::Solid> of_outline;
+    std::unordered_map<const curves::ContourNode*, csg::Solid> of_node;
+    bool good = true;
+    curves::visit(contour, [&](const curves::ContourNode& node) {
+        if (!good) return;
+        Value made;
+        if (node.op == curves::ContourOp::outline) {
+            csg::Solid& solid = of_outline[node.outline.get()];
+            if (!solid) {
+                good = make(node.outline, made);
+                if (!good) return;
+                solid = made.take_solid();
+            }
+            of_node[&node] = solid;
+            return;
+        }
+        std::vector<csg::Solid> operands;
+        operands.reserve(node.operands.size());
+        for (const curves::Contour& operand : node.operands)
+            operands.push_back(of_node[operand.get()]);
+        good = call.evaluator().combine(solid_op(node.op), std::move(operands), call.node(),
+                                        call.span(), made);
+        if (good) of_node[&node] = made.take_solid();
+    });
+    if (good) out = Value::solid(of_node[contour.get()]);
+    return good;
+}
 
 bool make_primitive(Call& call, Value& out) {
     const auto row = static_cast<std::size_t>(call.builtin().primitive);
@@ -157,18 +232,25 @@ bool make_primitive(Call& call, Value& out) {
     std::array<solids::Argument, kMost> arguments;
     std::array<std::size_t, kMost> slots{};
     std::array<std::size_t, kMost> diameters{};
+    curves::Contour contour;
+    std::size_t swept = kMost;  // the parameter that takes the contour
     std::size_t slot = 0;
     for (std::size_t i = 0; i < schema.params.size(); ++i) {
         slots[i] = slot;
         for (std::size_t k = 0; k < parameters.size(); ++k) {
             if (parameters[k].stands_for == static_cast<int>(slot)) diameters[i] = k;
         }
-        if (!take(call, schema.params[i], slot, diameters[i], arguments[i])) return false;
+        if (!take(call, schema.params[i], slot, diameters[i], contour, arguments[i])) return false;
+        if (contour != nullptr && swept == kMost) swept = i;
         slot += schema.params[i].kind == solids::ParamKind::size ? 3 : 1;
     }
-    auto made = csg::primitive(static_cast<std::uint32_t>(row),
-                               std::span(arguments.data(), schema.params.size()), call.span());
-    if (!made) {
+    const auto make = [&](Value& made_value) {
+        auto made = csg::primitive(static_cast<std::uint32_t>(row),
+                                   std::span(arguments.data(), schema.params.size()), call.span());
+        if (made) {
+            made_value = Value::solid(std::move(*made));
+            return call.evaluator().made(made_value.solid(), true, call.node());
+        }
         Error error = std::move(made).error();
         error.where = call.span();
         if (error.argument >= 0) {
@@ -181,14 +263,21 @@ bool make_primitive(Call& call, Value& out) {
             }
         }
         return call.fail(std::move(error));
-    }
-    out = Value::solid(std::move(*made));
-    return call.evaluator().made(out.solid(), true, call.node());
+    };
+    if (contour == nullptr) return make(out);
+    // Arguments are checked once more for each outline; a contour of many outlines makes as many solids.
+    return for_each_outline(
+        call, contour,
+        [&](const curves::OutlinePtr& outline, Value& made) {
+            arguments[swept] = outline;
+            return make(made);
+        },
+        out);
 }
 
 std::span<const BuiltinRow> solid_rows() {
     static constexpr auto kRows = std::to_array<BuiltinRow>({
-        {"union", "solids* | blend? kind? shape?", &unite, "All solids as one."},
+        {"union", "solids* | blend? kind? shape?", &unite, "All solids or contours as one."},
         {"difference", "solids* | blend? kind? shape?", &difference,
          "The first without the others."},
         {"intersection", "solids* | blend? kind? shape?", &intersection, "What all share."},

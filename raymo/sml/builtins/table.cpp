@@ -19,6 +19,7 @@ ParameterList parse_parameters(std::string_view name, std::string_view text) {
     out.callee = name;
     bool by_name_only = false;
     std::string shown;
+    std::vector<ParameterList::Parameter> others;
     while (!text.empty()) {
         const std::size_t space = std::min(text.find(' '), text.size());
         std::string_view word = text.substr(0, space);
@@ -29,6 +30,11 @@ ParameterList parse_parameters(std::string_view name, std::string_view text) {
         }
         const char mark = word.back();
         if (mark == '?' || mark == '*') word.remove_suffix(1);
+        if (const std::size_t slash = word.find('/'); slash != std::string_view::npos) {
+            others.push_back({std::string(word.substr(slash + 1)), false,
+                              static_cast<int>(out.parameters.size())});
+            word = word.substr(0, slash);
+        }
         if (!shown.empty()) shown += ", ";
         if (mark == '*') {
             out.has_rest = true;
@@ -39,6 +45,7 @@ ParameterList parse_parameters(std::string_view name, std::string_view text) {
         out.parameters.push_back({std::string(word), mark != '?', -1});
         if (!by_name_only) out.positional = out.parameters.size();
     }
+    out.parameters.insert(out.parameters.end(), others.begin(), others.end());
     out.signature = fmt::format("{}({})", name, shown);
     return out;
 }
@@ -86,8 +93,8 @@ struct Table {
             rows.push_back(std::move(b));
         }
         for (const auto topic :
-             {number_rows(), vector_rows(), list_rows(), text_rows(), solid_rows(),
-              transform_rows(), arrangement_rows(), look_rows(), question_rows()}) {
+             {number_rows(), vector_rows(), list_rows(), text_rows(), solid_rows(), contour_rows(),
+              path_rows(), transform_rows(), arrangement_rows(), look_rows(), question_rows()}) {
             for (const BuiltinRow& row : topic) {
                 Builtin b;
                 b.takes = parse_parameters(row.name, row.parameters);

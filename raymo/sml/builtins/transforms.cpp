@@ -1,40 +1,150 @@
-// Transformations and arrangements. A transformation of a list of solids transforms each of them.
+// Transformations of solids, contours and paths. A transformation of a list of them transforms each.
 
 #include <fmt/core.h>
 
 #include <cmath>
 #include <numbers>
 
+#include "raymo/curves/build_path.hpp"
+#include "raymo/math/tolerance.hpp"
 #include "raymo/sml/builtins/call.hpp"
 #include "raymo/sml/text.hpp"
 
 namespace raymo::sml {
 namespace {
 
-bool apply(Call& call, Value& shape, const Affine& map, Value& out) {
+// The contour's image. Its plane must stay where it is; `blame` is the argument that says so when it does not.
+bool apply_to_contour(Call& call, const curves::Contour& contour, const Affine& map,
+                      std::size_t blame, Value& out) {
+    const auto& row = map.linear.row;
+    if (row[2].x != 0.0 || row[2].y != 0.0 || map.offset.z != 0.0) {
+        return call.fail(blame, ErrorCode::bad_argument, "a contour stays in its plane, z = 0",
+                         "make a solid of it first, and " + call.name() + " that");
+    }
+    const Affine2 plane{row[0].x, row[0].y, map.offset.x, row[1].x, row[1].y, map.offset.y};
+    if (!is_invertible(
+            Mat3{{Vec3{plane.xx, plane.xy, 0}, Vec3{plane.yx, plane.yy, 0}, Vec3{0, 0, 1}}})) {
+        return call.fail(blame, ErrorCode::singular, "it makes the contour flat",
+                         "no scale may be 0, and the axes must keep different directions");
+    }
+    const double bytes = curves::bytes_of(contour);
+    if (!call.evaluator().room(bytes, call.node())) return false;
+    curves::Contour image = curves::mapped(contour, plane);
+    if (!(curves::extent_of(image) <= curves::kLargestCoordinate)) {
+        return call.fail(blame, ErrorCode::out_of_range,
+                         "the contour becomes too large to be computed with",
+                         "stay within 1e90 of the origin");
+    }
+    const double charged = curves::bytes_of(image);
+    return call.evaluator().made(std::move(image), charged, call.node(), out);
+}
+
+// The path's image. Its spheres must stay spheres.
+bool apply_to_path(Call& call, const curves::Path& path, const Affine& map, std::size_t blame,
+                   Value& out) {
+    // L^T L = factor^2 I but for the rounding of what L was made of: 4 roundings for each entry of a rotation, 3 more for
+    // each product of two, of which a program may compose some.
+    constexpr double kRounding = 64.0 * kUnitRoundoff;
+    std::array<Vec3, 3> column{map.linear.column(0), map.linear.column(1), map.linear.column(2)};
+    const double size =
+        std::max(max_norm(column[0]), std::max(max_norm(column[1]), max_norm(column[2])));
+    const bool is_usable = is_invertible(map.linear) && is_finite(map.offset);
+    double factor = 0.0;
+    bool is_similar = is_usable;
+    if (is_usable) {
+        for (Vec3& c : column) c = c / size;
+        const double square =
+            (dot(column[0], column[0]) + dot(column[1], column[1]) + dot(column[2], column[2])) /
+            3.0;
+        for (std::size_t i = 0; i < 3; ++i) {
+            for (std::size_t j = i; j < 3; ++j) {
+                const double wanted = i == j ? square : 0.0;
+                is_similar =
+                    is_similar && std::fabs(dot(column[i], column[j]) - wanted) <= kRounding;
+            }
+        }
+        factor = std::sqrt(square) * size;
+    }
+    if (!is_usable) {
+        return call.fail(blame, ErrorCode::singular, "it makes the path flat",
+                         "no scale may be 0, and the axes must keep different directions");
+    }
+    if (!is_similar) {
+        return call.fail(
+            blame, ErrorCode::bad_argument,
+            "the spheres of a path must stay spheres: scale all axes alike",
+            "to distort it, " + call.name() + " the solid: sweep(path)." + call.name() + "(...)");
+    }
+    if (!call.evaluator().room(curves::bytes_of(path), call.node())) return false;
+    curves::Path image = curves::mapped(path, map, factor);
+    if (!(curves::extent_of(image) <= curves::kLargestCoordinate)) {
+        return call.fail(blame, ErrorCode::out_of_range,
+                         "the path becomes too large to be computed with",
+                         "stay within 1e90 of the origin");
+    }
+    return call.evaluator().made(std::make_shared<const curves::Path>(std::move(image)),
+                                 call.node(), out);
+}
+
+bool is_shape(const Value& value) {
+    return value.is(Tag::solid) || value.is(Tag::contour) || value.is(Tag::path);
+}
+
+bool apply_to_shape(Call& call, const Value& shape, const Affine& map, std::size_t blame,
+                    Value& out) {
+    if (shape.is(Tag::contour))
+        return apply_to_contour(call, shape.as<ContourObject>().value, map, blame, out);
+    if (shape.is(Tag::path))
+        return apply_to_path(call, *shape.as<PathObject>().value, map, blame, out);
+    return call.result(csg::transform(shape.solid(), map, call.span()), out);
+}
+
+/// The shape under a map; `blame` is the argument that the map was made of.
+bool apply(Call& call, Value& shape, const Affine& map, std::size_t blame, Value& out) {
     if (shape.is(Tag::solid))
         return call.result(csg::transform(shape.take_solid(), map, call.span()), out);
+    if (is_shape(shape)) {
+        const Value keep = shape;
+        return apply_to_shape(call, keep, map, blame, out);
+    }
     if (shape.is(Tag::transform)) {  // first the one, then the other
         out = Value::object(new TransformObject(map * shape.as<TransformObject>().value));
         return true;
     }
-    if (shape.is(Tag::list) && !shape.items().empty() && shape.items()[0].is(Tag::solid)) {
+    if (shape.is(Tag::list) && !shape.items().empty() && is_shape(shape.items()[0])) {
         std::vector<Value> items(shape.items().size());
         for (std::size_t i = 0; i < items.size(); ++i) {
-            if (!shape.items()[i].is(Tag::solid)) {
-                return call.fail(
-                    0, ErrorCode::bad_argument, "every element must be a solid", {},
-                    fmt::format("this list has {} in it", kind_text(shape.items()[i])));
+            const Value& item = shape.items()[i];
+            if (!is_shape(item)) {
+                return call.fail(0, ErrorCode::bad_argument, "every element must be a solid", {},
+                                 fmt::format("this list has {} in it", kind_text(item)));
             }
-            if (!call.result(csg::transform(shape.items()[i].solid(), map, call.span()),
-                             items[i])) {
-                return false;
-            }
+            if (!apply_to_shape(call, item, map, blame, items[i])) return false;
         }
         out = Value::list(std::move(items));
         return true;
     }
-    return call.wrong_kind(0, "a solid", "write solid." + call.name() + "(...)");
+    return call.wrong_kind(0, "a solid, a contour or a path",
+                           "write solid." + call.name() + "(...)");
+}
+
+/// Whether the first argument lies in the plane, where two numbers are a vector and one is an angle.
+bool is_plane(Call& call) {
+    if (!call.has(0)) return false;
+    if (call[0].is(Tag::list) && !call[0].items().empty())
+        return call[0].items()[0].is(Tag::contour);
+    return call[0].is(Tag::contour);
+}
+
+/// Three numbers, or two for what lies in the plane; z is kept then.
+bool vector_of(Call& call, std::size_t i, Vec3& out) {
+    Vec2 p;
+    if (is_plane(call) && call.has(i) && is_vector2(call[i], p)) {
+        out.x = p.x;
+        out.y = p.y;
+        return true;
+    }
+    return call.vector(i, out);
 }
 
 // (x, y, z) given as one vector or as numbers, by position or by name. `given` has a bit for each.
@@ -46,7 +156,7 @@ bool components(Call& call, std::size_t first, Vec3& out, unsigned& given) {
                              "give one vector or numbers, not both");
         }
         given = 7;
-        return call.vector(first, out);
+        return vector_of(call, first, out);
     }
     for (std::size_t axis = 0; axis < 3; ++axis) {
         if (!call.has(first + axis)) continue;
@@ -67,7 +177,8 @@ Affine about(const Affine& map, Vec3 point) {
 bool move(Call& call, Value& out) {
     Vec3 by;
     unsigned given = 0;
-    return components(call, 1, by, given) && apply(call, call[0], translation(by), out);
+    return components(call, 1, by, given) &&
+           apply(call, call[0], translation(by), call.has(3) ? 3 : 1, out);
 }
 
 bool rotate(Call& call, Value& out) {
@@ -79,11 +190,20 @@ bool rotate(Call& call, Value& out) {
         1) {
         return call.fail(ErrorCode::bad_argument, "give x, y, z or `axis` and `angle`, not both");
     }
-    if (is_about_axis) {
+    // rotate(contour, angle) needs no axis.
+    const bool is_in_plane =
+        is_plane(call) && !call.has(5) && ((call.has(1) && call[1].is(Tag::number)) || call.has(6));
+    std::size_t blame = call.has(1) ? 1 : (call.has(2) ? 2 : (call.has(3) ? 3 : 4));
+    if (is_about_axis && !is_in_plane) {
         Vec3 axis;
         double angle = 0.0;
         if (!call.axis(5, axis) || !call.number(6, angle)) return false;
         map = rotation(unit(axis), angle);
+        blame = call.has(5) ? 5 : 6;
+    } else if (is_in_plane) {
+        double angle = 0.0;
+        if (!call.number(call.has(1) ? 1 : 6, angle)) return false;
+        map = rotation({0, 0, 1}, angle);
     } else {
         Vec3 angles;
         unsigned given = 0;
@@ -102,10 +222,10 @@ bool rotate(Call& call, Value& out) {
     }
     if (call.has(7)) {
         Vec3 centre;
-        if (!call.vector(7, centre)) return false;
+        if (!vector_of(call, 7, centre)) return false;
         map = about(map, centre);
     }
-    return apply(call, call[0], map, out);
+    return apply(call, call[0], map, blame, out);
 }
 
 bool scale(Call& call, Value& out) {
@@ -128,10 +248,10 @@ bool scale(Call& call, Value& out) {
     Affine map = scaling(factors);
     if (call.has(4)) {
         Vec3 centre;
-        if (!call.vector(4, centre)) return false;
+        if (!vector_of(call, 4, centre)) return false;
         map = about(map, centre);
     }
-    return apply(call, call[0], map, out);
+    return apply(call, call[0], map, 1, out);
 }
 
 bool skew(Call& call, Value& out) {
@@ -142,8 +262,11 @@ bool skew(Call& call, Value& out) {
     static constexpr std::array<Pair, 6> kPairs{{{0, 1}, {0, 2}, {1, 0}, {1, 2}, {2, 0}, {2, 1}}};
     Affine map;
     bool any = false;
+    std::size_t blame = 1;
     for (std::size_t i = 0; i < kPairs.size(); ++i) {
         if (!call.has(1 + i)) continue;
+        // What lies in the plane can be skewed along x and y only.
+        if (!any || kPairs[i].grows == 2) blame = 1 + i;
         double angle = 0.0;
         if (!call.number(1 + i, angle)) return false;
         if (!(std::fabs(angle) < 90.0)) {
@@ -158,19 +281,27 @@ bool skew(Call& call, Value& out) {
     }
     if (!any)
         return call.fail(ErrorCode::bad_argument, "the angle is missing", "write skew(xy: 20)");
-    return apply(call, call[0], map, out);
+    return apply(call, call[0], map, blame, out);
 }
 
 bool mirror(Call& call, Value& out) {
     Vec3 normal;
-    if (!call.direction(1, normal)) return false;
+    if (is_plane(call) && call.has(1) && call[1].is(Tag::list) && call[1].items().size() == 2) {
+        if (!vector_of(call, 1, normal)) return false;
+        if (normal == Vec3{}) {
+            return call.fail(1, ErrorCode::out_of_range, "`normal` must not be (0, 0)",
+                             "(1, 0) swaps left and right", "this has no direction");
+        }
+    } else if (!call.direction(1, normal)) {
+        return false;
+    }
     Affine map = reflection(normal);
     if (call.has(2)) {
         Vec3 point;
-        if (!call.vector(2, point)) return false;
+        if (!vector_of(call, 2, point)) return false;
         map = about(map, point);
     }
-    return apply(call, call[0], map, out);
+    return apply(call, call[0], map, 1, out);
 }
 
 bool to_affine(Call& call, std::size_t i, Affine& out) {
@@ -201,7 +332,7 @@ bool transform(Call& call, Value& out) {
         out = Value::object(new TransformObject(map));
         return true;
     }
-    return to_affine(call, 1, map) && apply(call, call[0], map, out);
+    return to_affine(call, 1, map) && apply(call, call[0], map, 1, out);
 }
 
 // The box of a solid, which must have a finite size.
@@ -219,7 +350,7 @@ bool center_at(Call& call, Value& out) {
     Aabb box;
     Vec3 point;
     if (!box_of(call, 0, box) || (call.has(1) && !call.vector(1, point))) return false;
-    return apply(call, call[0], translation(point - box.centre()), out);
+    return apply(call, call[0], translation(point - box.centre()), 1, out);
 }
 
 // align(s, x: "min", z: "max", to: point or solid)
@@ -255,7 +386,7 @@ bool align(Call& call, Value& out) {
         return call.fail(ErrorCode::bad_argument, "the side is missing",
                          "write align(x: \"min\", z: \"center\")");
     }
-    return apply(call, call[0], translation(by), out);
+    return apply(call, call[0], translation(by), 1, out);
 }
 
 }  // namespace

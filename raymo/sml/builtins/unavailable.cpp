@@ -8,11 +8,8 @@ namespace raymo::sml {
 
 std::span<const std::string_view> unavailable_names() {
     static constexpr auto kNames = std::to_array<std::string_view>(
-        {"prism",   "conic",    "revolve",  "sweep",       "smooth",    "patches",
-         "rounded", "filleted", "polygon",  "circle",      "rectangle", "regular",
-         "bspline", "bezier",   "catmull",  "interpolate", "arc",       "chain",
-         "text",    "svg",      "path",     "helix",       "path_from", "mesh",
-         "volume",  "area",     "centroid", "inertia",     "clearance", "overlaps"});
+        {"prism", "conic", "revolve", "sweep", "smooth", "patches", "rounded", "filleted", "text",
+         "svg", "mesh", "volume", "area", "centroid", "inertia", "clearance", "overlaps"});
     return kNames;
 }
 
