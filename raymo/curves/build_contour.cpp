@@ -174,7 +174,7 @@ Result<Curve> arc_curve(double radius, double from, double to, Vec2 centre) {
     const double turn = to - from;
     if (turn == 0.0)
         return wrong(2, "the arc must end at another angle than it begins",
-                     "`from: 0, to: 360` is the whole circle", "this is " + shown(to));
+                     "0 and 360 make the whole circle", "this is " + shown(to));
     if (!(std::fabs(turn) <= 360.0))
         return wrong(2, "the arc must be at most a full turn", {},
                      "this is " + shown(turn) + " degrees behind the start");

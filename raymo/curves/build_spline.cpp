@@ -12,8 +12,12 @@ namespace raymo::curves {
 std::string shown(double value) {
     if (std::isnan(value)) return "nan";
     if (std::isinf(value)) return value > 0 ? "inf" : "-inf";
-    std::array<char, 32> text{};
-    const auto end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;
+    std::array<char, 64> text{};
+    const double size = std::fabs(value);
+    const bool is_plain = size == 0.0 || (size >= 1e-6 && size < 1e21);
+    const auto end = std::to_chars(text.data(), text.data() + text.size(), value,
+                                   is_plain ? std::chars_format::fixed : std::chars_format::general)
+                         .ptr;
     return {text.data(), end};
 }
 
@@ -232,7 +236,7 @@ Result<void> check_points(std::span<const Point<D>> points) {
             if (k < 3) differ = differ || p[k] != points[0][k];
         }
     }
-    if (!differ && !points.empty())
+    if (!differ && points.size() > 1)
         return wrong_points("all points are the same", "a curve needs places that differ", {});
     return {};
 }

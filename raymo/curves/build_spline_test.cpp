@@ -241,7 +241,8 @@ TEST_CASE("what is wrong with the points is said") {
           "a curve of degree 3 needs at least 4 points");
     CHECK(message({{0, 0}, {1, 0}}, {SplineKind::linear, 1, true, false}) ==
           "a closed curve needs at least 3 points");
-    CHECK(message({{1, 1}}, {SplineKind::catmull, 3, false, false}) == "all points are the same");
+    CHECK(message({{1, 1}}, {SplineKind::catmull, 3, false, false}) ==
+          "a curve needs at least 2 points");
     CHECK(message({}, {SplineKind::catmull, 3, false, false}) == "a curve needs at least 2 points");
     CHECK(message(Points(5, {2, 2}), cubic) == "all points are the same");
     CHECK(message({{0, 0}, {1e300, 0}, {1, 1}, {2, 2}}, cubic) ==

@@ -94,7 +94,7 @@ bool interpolate(Call& call, Value& out) {
     return closed_flag(call, 1, form) && spline(call, form, out);
 }
 
-// arc(r, from, to, center: p) or arc(through: [a, b, c])
+// arc(r, start, end, center: p) or arc(through: [a, b, c])
 bool arc(Call& call, Value& out) {
     constexpr std::size_t kCentre = 3;
     constexpr std::size_t kThrough = 4;
@@ -218,7 +218,7 @@ std::span<const BuiltinRow> contour_rows() {
         {"catmull", "points | closed?", &catmull, "The Catmull-Rom spline through the points."},
         {"interpolate", "points | closed?", &interpolate,
          "The curve through the points with continuous curvature."},
-        {"arc", "r/d? from? to? | center? through?", &arc,
+        {"arc", "r/d? start? end? | center? through?", &arc,
          "The arc from one angle to another, or through three points."},
         {"chain", "curves* | closed?", &chain, "Curves end to end; closed where they come back."},
     });
