@@ -4,6 +4,7 @@
 #include <unordered_map>
 
 #include "raymo/core/assert.hpp"
+#include "raymo/curves/roots.hpp"
 
 namespace raymo::curves {
 namespace {
@@ -15,6 +16,20 @@ std::shared_ptr<ContourNode> outline_node(OutlinePtr outline) {
     auto node = std::make_shared<ContourNode>();
     node->outline = std::move(outline);
     return node;
+}
+
+/// Widens lo..hi by the values of p / w on [0, 1]: those at the ends, and where the derivative's numerator p' w - p w' is 0.
+void include_values(const Bernstein<3>& p, const Bernstein<3>& w, double& lo, double& hi) {
+    const auto include = [&](double at) {
+        lo = std::min(lo, at);
+        hi = std::max(hi, at);
+    };
+    include(p[0] / w[0]);
+    include(p[3] / w[3]);
+    const auto slope = sum_of(product(derivative(p), w), product(p, derivative(w)), -1.0);
+    RootList<5> roots;
+    find_roots<5>(slope, 0.0, roots);
+    for (const Root& root : roots) include(value_at(p, root.u) / value_at(w, root.u));
 }
 
 struct PairHash {
@@ -88,6 +103,37 @@ double extent_of(const Contour& contour) {
         }
     });
     return size;
+}
+
+Box2 box_of(const Outline& outline) {
+    Box2 box;
+    for (const Curve& curve : outline.curves) {
+        for (const Span2& span : curve.spans) {
+            include_values(span.x, span.w, box.lo.x, box.hi.x);
+            include_values(span.y, span.w, box.lo.y, box.hi.y);
+        }
+    }
+    return box;
+}
+
+Box2 box_of(const Contour& contour) {
+    std::unordered_map<const ContourNode*, Box2> boxes;
+    visit(contour, [&](const ContourNode& node) {
+        if (node.op == ContourOp::outline) {
+            boxes[&node] = box_of(*node.outline);
+            return;
+        }
+        Box2 box = boxes[node.operands[0].get()];
+        for (std::size_t i = 1; i < node.operands.size(); ++i) {
+            const Box2& other = boxes[node.operands[i].get()];
+            if (node.op == ContourOp::unite) box.include(other);
+            if (node.op != ContourOp::intersection) continue;
+            box.lo = {std::max(box.lo.x, other.lo.x), std::max(box.lo.y, other.lo.y)};
+            box.hi = {std::min(box.hi.x, other.hi.x), std::min(box.hi.y, other.hi.y)};
+        }
+        boxes[&node] = box.empty() ? Box2{} : box;
+    });
+    return boxes[contour.get()];
 }
 
 bool is_open(const Contour& contour) {

@@ -2,6 +2,8 @@
 
 #include <doctest/doctest.h>
 
+#include <cmath>
+
 #include "raymo/curves/build_contour.hpp"
 
 namespace raymo::curves {
@@ -65,6 +67,26 @@ TEST_CASE("contours are equal when they are the same Booleans of the same curves
     CHECK(is_equal(pair(ContourOp::unite, 1, 2), pair(ContourOp::unite, 1, 2)));
     CHECK(!is_equal(pair(ContourOp::unite, 1, 2), pair(ContourOp::difference, 1, 2)));
     CHECK(!is_equal(pair(ContourOp::unite, 1, 2), pair(ContourOp::unite, 2, 1)));
+}
+
+TEST_CASE("boxes are exact, and follow the Booleans") {
+    const Box2 disc_box = box_of(mapped(disc(5), {1, 0, 3, 0, 1, -2}));
+    CHECK(max_norm(disc_box.lo - Vec2{-2, -7}) < 1e-14);
+    CHECK(max_norm(disc_box.hi - Vec2{8, 3}) < 1e-14);
+    // Turned, a circle's extremes lie within its arcs.
+    const double c = std::sqrt(0.5);
+    const Box2 turned = box_of(mapped(disc(5), {c, -c, 0, c, c, 0}));
+    CHECK(max_norm(turned.lo - Vec2{-5, -5}) < 1e-14);
+    CHECK(max_norm(turned.hi - Vec2{5, 5}) < 1e-14);
+    Outline bump;
+    bump.curves.push_back({{cubic({0, 0}, {0, 4}, {3, 4}, {3, 0}), segment({3, 0}, {0, 0})}, true});
+    CHECK(box_of(bump).hi == Vec2{3, 3});
+    const Contour right = mapped(disc(5), {1, 0, 8, 0, 1, 0});
+    CHECK(box_of(combined(ContourOp::unite, {disc(5), right})).hi.x == 13.0);
+    CHECK(box_of(combined(ContourOp::intersection, {disc(5), right})).lo.x == 3.0);
+    CHECK(box_of(combined(ContourOp::difference, {disc(5), right})).hi.x == 5.0);
+    const Contour away = mapped(disc(5), {1, 0, 80, 0, 1, 0});
+    CHECK(box_of(combined(ContourOp::intersection, {disc(5), away})).empty());
 }
 
 TEST_CASE("a contour is open when one of its curves is") {

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "raymo/curves/build_spline.hpp"
 #include "raymo/sml/builtins/call.hpp"
 #include "raymo/sml/text.hpp"
 
@@ -57,7 +58,46 @@ bool row(Call& call, const csg::Solid& s, double n, Vec3 step, csg::Solid& out) 
     return true;
 }
 
+// Contours are drawn anew for each copy, so there may be fewer of them.
+constexpr double kMostContours = 1e6;
+
+// The union of n copies of a contour, each under its own map of the plane.
+template <class F>
+bool copies(Call& call, double n, F&& map_of, Value& out) {
+    const curves::Contour contour = call[0].as<ContourObject>().value;
+    const double bytes = curves::bytes_of(contour);
+    if (!call.evaluator().room(bytes * n, call.node())) return false;
+    std::vector<curves::Contour> operands{contour};
+    double charged = 0.0;
+    for (double i = 1; i < n; ++i) {
+        operands.push_back(curves::mapped(contour, map_of(i)));
+        if (!(curves::extent_of(operands.back()) <= curves::kLargestCoordinate)) {
+            return call.fail(ErrorCode::out_of_range,
+                             "the contour becomes too large to be computed with",
+                             "stay within 1e90 of the origin");
+        }
+        charged += curves::bytes_of(operands.back());
+        if (!call.evaluator().worked(bytes / 64.0, call.node())) return false;
+    }
+    curves::Contour all = curves::combined(curves::ContourOp::unite, std::move(operands));
+    if (n == 1) {
+        out = Value(call[0]);
+        return true;
+    }
+    charged += curves::bytes_of(*all);
+    return call.evaluator().made(std::move(all), charged, call.node(), out);
+}
+
+bool repeat_contour(Call& call, Value& out) {
+    double n = 0.0;
+    Vec2 step;
+    return call.whole(1, 1, kMostContours, n) && call.vector2(2, step) &&
+           copies(
+               call, n, [&](double i) { return Affine2{1, 0, step.x * i, 0, 1, step.y * i}; }, out);
+}
+
 bool repeat(Call& call, Value& out) {
+    if (call.has(0) && call[0].is(Tag::contour)) return repeat_contour(call, out);
     csg::Solid s;
     double n = 0.0;
     Vec3 step;
@@ -74,12 +114,27 @@ bool ring(Call& call, Value& out) {
     double n = 0.0;
     Vec3 axis{0, 0, 1};
     double angle = 360.0;
-    if (!call.solid(0, s) || !call.whole(1, 1, 1e6, n)) return false;
+    const bool is_contour = call.has(0) && call[0].is(Tag::contour);
+    if ((!is_contour && !call.solid(0, s)) || !call.whole(1, 1, 1e6, n)) return false;
     if (call.has(2) && !call.axis(2, axis)) return false;
     if (call.has(3) && !call.number(3, angle)) return false;
     // A full turn ends where it began; less than that has an instance at both ends.
     const bool is_full = std::fabs(angle) >= 360.0;
     const double step = n == 1 ? 0.0 : angle / (is_full ? n : n - 1);
+    if (is_contour) {
+        if (axis.x != 0.0 || axis.y != 0.0) {
+            return call.fail(2, ErrorCode::bad_argument, "a contour stays in its plane, z = 0",
+                             "make a solid of it first, and ring that");
+        }
+        const double sense = axis.z < 0.0 ? -1.0 : 1.0;
+        return copies(
+            call, n,
+            [&](double i) {
+                const SinCos at = sin_cos_degrees(sense * i * step);
+                return Affine2{at.cos, -at.sin, 0, at.sin, at.cos, 0};
+            },
+            out);
+    }
     std::vector<csg::Solid> operands{s};
     for (double i = 1; i < n; ++i) {
         if (!instance(call, s, rotation(unit(axis), i * step), operands)) return false;

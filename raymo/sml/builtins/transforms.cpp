@@ -335,8 +335,14 @@ bool transform(Call& call, Value& out) {
     return to_affine(call, 1, map) && apply(call, call[0], map, 1, out);
 }
 
-// The box of a solid, which must have a finite size.
+// The box of a solid, which must have a finite size, or of a contour.
 bool box_of(Call& call, std::size_t i, Aabb& out) {
+    if (call.has(i) && call[i].is(Tag::contour)) {
+        const Box2 box = curves::box_of(call[i].as<ContourObject>().value);
+        if (box.empty()) return call.fail(i, ErrorCode::empty, "the contour is empty");
+        out = {{box.lo.x, box.lo.y, 0.0}, {box.hi.x, box.hi.y, 0.0}};
+        return call.evaluator().worked(1000.0, call.node());
+    }
     csg::Solid solid;
     if (!call.solid(i, solid)) return false;
     out = csg::bounds(solid);
@@ -349,7 +355,7 @@ bool box_of(Call& call, std::size_t i, Aabb& out) {
 bool center_at(Call& call, Value& out) {
     Aabb box;
     Vec3 point;
-    if (!box_of(call, 0, box) || (call.has(1) && !call.vector(1, point))) return false;
+    if (!box_of(call, 0, box) || (call.has(1) && !vector_of(call, 1, point))) return false;
     return apply(call, call[0], translation(point - box.centre()), 1, out);
 }
 
@@ -361,9 +367,9 @@ bool align(Call& call, Value& out) {
     Aabb target{{0, 0, 0}, {0, 0, 0}};
     if (call.has(4)) {
         Vec3 point;
-        if (call[4].is(Tag::solid)) {
+        if (call[4].is(Tag::solid) || call[4].is(Tag::contour)) {
             if (!box_of(call, 4, target)) return false;
-        } else if (call.vector(4, point)) {
+        } else if (vector_of(call, 4, point)) {
             target = {point, point};
         } else {
             return false;
@@ -386,7 +392,7 @@ bool align(Call& call, Value& out) {
         return call.fail(ErrorCode::bad_argument, "the side is missing",
                          "write align(x: \"min\", z: \"center\")");
     }
-    return apply(call, call[0], translation(by), 1, out);
+    return apply(call, call[0], translation(by), call.has(3) ? 3 : 0, out);
 }
 
 }  // namespace
