@@ -1,116 +1,324 @@
+// Isolation by sign variation.
+//
+// A piece is p on a dyadic interval, in Bernstein form on [0, 1] again. Pieces are taken from left to right. One is done when
+// its coefficients leave no doubt, or when its shape is so simple that one or two places tell all; else it is halved.
+//
+// Parity. A halving takes means of neighbours and drops rows of them. In rounded arithmetic, too, the mean of a and b lies
+// between them, so it has the sign of one of them (0 counting as positive; 0.5 (a + b) of two negative numbers does not
+// underflow to 0), and putting it between them adds no change of sign. Hence
+//     changes(left) + changes(right) <= changes(p) <= N                                                    (1)
+// for the coefficients as computed, and both halves share the computed value in the middle bit for bit. Each piece that is
+// done tells of an odd number of crossings if the signs at its ends are different and of an even number if they are equal.
+// So, whatever rounding does to the values in between, crossings alternate, their parity is that of the ends of p, and there
+// are at most N.
+//
+// Certainty. Each mean of a halving has a relative error of u (and 2^-1074), N of them follow each other, and later means do
+// not make errors larger. With `doubt` for the bound of the error of the coefficients of a piece, input noise included,
+//     doubt(half) = doubt(piece) + N u size(piece) + N 2^-1074.                                            (2)
+// A sign counts as known where the number is larger than the doubt, and at 0 and 1, where it is taken as it stands since
+// the neighbours of p take it as well. Pieces that meet where the sign is not known are told together, from the last known
+// sign before to the first one after: as a crossing if these are different, else as a touch.
+//
+// Pieces that are done:
+//   clear     all coefficients have one known sign: no zero;
+//   simple    known negative ones, then unknown, then known positive ones, or the other way about: one crossing;
+//   blurred   none is larger than twice the doubt: nothing can be told apart here;
+//   monotone  the coefficients rise or fall: what happens is told by the ends;
+//   humped    they rise and then fall, or the other way about, so p' has one zero m [Lane81]: p is monotone on both sides,
+//             and the sign of p(m) decides. A halving would need 20 more to come as near to a double zero.
+// What is none of these after kMostDepth halvings is told as blurred. A piece holds its right sibling back, so kMostDepth
+// of them wait at most. More than kMostHalvings, which no polynomial is known to need, end in the same way.
+//
+// Size of the list: between two touches, or a touch and a crossing, that are told apart, |p| has a maximum, and p' has at
+// most N - 1 zeros; so there are not more than N. `Teller` refuses touches beyond N + 2, so that room for crossings is sure.
 #include "raymo/curves/roots.hpp"
+
+#include "raymo/curves/crossing.hpp"
+#include "raymo/math/tolerance.hpp"
 
 namespace raymo::curves {
 namespace {
 
-/// p and p' at u.
-template <int N>
-void evaluate(const Bernstein<N>& c, double u, double& value, double& slope) {
-    Bernstein<N> b = c;
-    const double v = 1.0 - u;
-    for (std::size_t n = N; n > 1; --n) {
-        for (std::size_t i = 0; i < n; ++i) b[i] = v * b[i] + u * b[i + 1];
-    }
-    value = v * b[0] + u * b[1];
-    slope = N * (b[1] - b[0]);
-}
+constexpr int kMostDepth = 48;
+constexpr int kMostHalvings = 1000;
+/// Pieces of fewer halvings are not searched for a hump: a halving is cheaper.
+constexpr int kHumpDepth = 2;
+/// Larger coefficients are scaled down, so that differences and binomial multiples stay finite.
+constexpr double kLargest = 0x1p1000;
 
-/// The polynomial on one of the intervals that are looked at.
+/// A place on [0, 1] and what is known there.
+struct End {
+    double u;
+    double value;
+    bool known;
+
+    [[nodiscard]] bool negative() const { return value < 0.0; }
+};
+
+/// Joins what pieces tell, in ascending order, into roots.
+template <int N>
+class Teller {
+public:
+    explicit Teller(RootList<N>& out) : out_(out) { out_.count = 0; }
+
+    RAYMO_INLINE void crossing(double u, const End& from, const End& to) {
+        put({u, from.u, to.u, true, from.negative()});
+    }
+
+    /// Between `from` and `to`, of which not both need be known, p is near zero in [lo, hi] only; u: the crossing, if any.
+    void blur(const End& from, const End& to, double lo, double hi, double u) {
+        if (!open_) {
+            open_ = true;
+            start_ = from;
+            lo_ = lo;
+            has_u_ = false;
+        }
+        if (from.negative() != to.negative() && !has_u_) {
+            has_u_ = true;
+            u_ = u;
+        }
+        if (!to.known) {
+            hi_ = hi;
+            return;
+        }
+        open_ = false;
+        if (start_.negative() != to.negative()) {
+            crossing(has_u_ ? u_ : 0.5 * (lo_ + hi), start_, to);
+        } else {
+            touch(lo_, hi);
+        }
+    }
+
+private:
+    void put(const Root& root) { out_.root[static_cast<std::size_t>(out_.count++)] = root; }
+
+    void touch(double lo, double hi) {
+        if (out_.count > 0) {
+            Root& last = out_.root[static_cast<std::size_t>(out_.count - 1)];
+            if (!last.crosses && last.hi >= lo) {
+                last.hi = hi;
+                last.u = 0.5 * (last.lo + hi);
+                return;
+            }
+        }
+        if (touches_ == N + 2) return;
+        ++touches_;
+        put({0.5 * (lo + hi), lo, hi, false, false});
+    }
+
+    RootList<N>& out_;
+    int touches_ = 0;
+    bool open_ = false;
+    End start_{};
+    double lo_ = 0.0, hi_ = 0.0;
+    bool has_u_ = false;
+    double u_ = 0.0;
+};
+
 template <int N>
 struct Piece {
     Bernstein<N> c;
-    double lo, hi;
+    End lo, hi;
+    double doubt;
+    int depth;
 };
 
-/// Intervals shorter than this are not halved again.
-constexpr double kShortest = 0x1p-40;
-
+/// The place in [x0, x1], with the values y0 and y1 at its ends, where c passes `level`; `otherwise` where it does not.
 template <int N>
-void add(RootList<N>& out, const Root& root) {
-    // Neighbouring touches are one.
-    if (!root.crosses && out.count > 0) {
-        Root& last = out.root[static_cast<std::size_t>(out.count - 1)];
-        if (!last.crosses && last.hi == root.lo) {
-            last.hi = root.hi;
-            last.u = 0.5 * (last.lo + last.hi);
+double place_of(Bernstein<N> c, double level, double x0, double x1, double y0, double y1,
+                double otherwise) {
+    if ((y0 < level) == (y1 < level)) return otherwise;
+    for (double& x : c) x -= level;
+    return zero_within<N>(c, {x0, x1, y0 - level, y1 - level, 0.5 * (x0 + x1)});
+}
+
+/// p is monotone on [x0, x1] of the piece, whose ends there are e0 and e1.
+template <int N>
+RAYMO_INLINE void tell_monotone(Teller<N>& teller, const Piece<N>& at, double x0, double x1,
+                                const End& e0, const End& e1, double guess) {
+    const bool crosses = e0.negative() != e1.negative();
+    if (e0.known && e1.known && !crosses) return;
+    double u = 0.5 * (e0.u + e1.u);
+    if (crosses) {
+        const double x = zero_within<N>(at.c, {x0, x1, e0.value, e1.value, guess});
+        u = std::min(std::max(at.lo.u + (at.hi.u - at.lo.u) * x, e0.u), e1.u);
+        if (e0.known && e1.known) {
+            teller.crossing(u, e0, e1);
             return;
         }
     }
-    if (static_cast<std::size_t>(out.count) < out.root.size())
-        out.root[static_cast<std::size_t>(out.count++)] = root;
+    double lo = e0.u;
+    double hi = e1.u;
+    if (e0.known || e1.known) {
+        const double level = (e0.known ? e0 : e1).negative() ? -at.doubt : at.doubt;
+        const double x = place_of<N>(at.c, level, x0, x1, e0.value, e1.value, e0.known ? x0 : x1);
+        const double place = at.lo.u + (at.hi.u - at.lo.u) * x;
+        (e0.known ? lo : hi) = std::min(std::max(place, e0.u), e1.u);
+    }
+    teller.blur(e0, e1, lo, hi, u);
+}
+
+/// p' has one zero within the piece.
+template <int N>
+void tell_humped(Teller<N>& teller, const Piece<N>& at, const Bernstein<N - 1>& d) {
+    // The value at m, computed within 2 N u size. Where the slope is lost in rounding it is no more than 4 N^2 u size there,
+    // so that m, wherever it is in that region, misses the extreme value by no more than that.
+    const double size = size_of(at.c);
+    const double m = zero_within<N - 1>(d, {0.0, 1.0, d[0], d[N - 1], d[0] / (d[0] - d[N - 1])});
+    const double value = value_at(at.c, m);
+    End middle{at.lo.u + (at.hi.u - at.lo.u) * m, value, false};
+    middle.known = std::fabs(value) > at.doubt + (4 * N * N + 2 * N) * kUnitRoundoff * size;
+    // About m it is a parabola.
+    const double left = 1.0 - std::sqrt(std::fabs(value / (value - at.lo.value)));
+    const double right = std::sqrt(std::fabs(value / (value - at.hi.value)));
+    tell_monotone<N>(teller, at, 0.0, m, at.lo, middle, m * left);
+    tell_monotone<N>(teller, at, m, 1.0, middle, at.hi, m + (1.0 - m) * right);
+}
+
+/// Bit i: bits i and i + 1 of `count` bits are different.
+constexpr unsigned changes_within(unsigned bits, int count) {
+    return (bits ^ (bits >> 1U)) & ((1U << static_cast<unsigned>(count - 1)) - 1U);
+}
+
+constexpr bool is_one_bit(unsigned bits) { return bits != 0 && (bits & (bits - 1U)) == 0; }
+
+/// Whether the piece is done.
+template <int N>
+RAYMO_INLINE bool tell(Teller<N>& teller, const Piece<N>& at) {
+    constexpr unsigned kAll = (1U << (N + 1U)) - 1U;
+    constexpr unsigned kLast = 1U << N;
+    unsigned negative = 0;
+    unsigned positive = 0;
+    for (unsigned i = 0; i <= N; ++i) {
+        negative |= (at.c[i] < -at.doubt ? 1U : 0U) << i;
+        positive |= (at.c[i] > at.doubt ? 1U : 0U) << i;
+    }
+    if (at.lo.known) (at.lo.negative() ? negative : positive) |= 1U;
+    if (at.hi.known) (at.hi.negative() ? negative : positive) |= kLast;
+    if (negative == kAll || positive == kAll) return true;
+
+    if (at.lo.known && at.hi.known && is_one_bit(changes_within(negative, N + 1)) &&
+        is_one_bit(changes_within(positive, N + 1)) && at.lo.negative() != at.hi.negative()) {
+        const double y0 = at.c[0];
+        const double y1 = at.c[N];
+        const double x = zero_within<N>(at.c, {0.0, 1.0, y0, y1, 0.0});
+        teller.crossing(at.lo.u + (at.hi.u - at.lo.u) * x, at.lo, at.hi);
+        return true;
+    }
+    const bool blurred = at.depth >= kMostDepth || size_of(at.c) <= 2.0 * at.doubt;
+    if (blurred) {
+        teller.blur(at.lo, at.hi, at.lo.u, at.hi.u, 0.5 * (at.lo.u + at.hi.u));
+        return true;
+    }
+    if (at.depth < kHumpDepth) return false;
+    if constexpr (N >= 2) {
+        Bernstein<N - 1> d;
+        unsigned falls = 0;
+        unsigned rises = 0;
+        for (unsigned i = 0; i < N; ++i) {
+            d[i] = at.c[i + 1] - at.c[i];
+            falls |= (d[i] < 0.0 ? 1U : 0U) << i;
+            rises |= (d[i] > 0.0 ? 1U : 0U) << i;
+        }
+        if (falls == 0 || rises == 0) {
+            tell_monotone<N>(teller, at, 0.0, 1.0, at.lo, at.hi, 0.5);
+            return true;
+        }
+        if (is_one_bit(changes_within(falls, N))) {
+            tell_humped<N>(teller, at, d);
+            return true;
+        }
+        return false;
+    } else {
+        tell_monotone<N>(teller, at, 0.0, 1.0, at.lo, at.hi, 0.5);
+        return true;
+    }
+}
+
+/// 0.5 (a + b) for all neighbours, again and again.
+template <int N>
+RAYMO_INLINE void halve(const Bernstein<N>& c, Bernstein<N>& left, Bernstein<N>& right) {
+    Bernstein<N> b = c;
+    left[0] = b[0];
+    for (std::size_t n = N; n > 0; --n) {
+        for (std::size_t i = 0; i < n; ++i) b[i] = 0.5 * (b[i] + b[i + 1]);
+        left[N + 1 - n] = b[0];
+    }
+    right = b;
 }
 
 template <int N>
-bool is_monotone(const Bernstein<N>& c) {
-    bool rises = true;
-    bool falls = true;
-    for (std::size_t i = 0; i < N; ++i) {
-        rises = rises && c[i + 1] >= c[i];
-        falls = falls && c[i + 1] <= c[i];
+void isolate(const Bernstein<N>& p, double noise, RootList<N>& out) {
+    Teller<N> teller(out);
+    std::array<Piece<N>, kMostDepth> waiting;
+    std::size_t count = 0;
+    int halvings = 0;
+    Piece<N> at{p, {0.0, p[0], true}, {1.0, p[N], true}, noise, 0};
+    for (;;) {
+        if (tell<N>(teller, at)) {
+            if (count == 0) return;
+            at = waiting[--count];
+            continue;
+        }
+        if (++halvings > kMostHalvings) at.depth = kMostDepth;
+        if (at.depth == kMostDepth) continue;
+        Piece<N>& right = waiting[count++];
+        Bernstein<N> left;
+        halve<N>(at.c, left, right.c);
+        right.doubt = at.doubt + (N * kUnitRoundoff) * size_of(at.c) + N * 0x1p-1074;
+        const double value = left[N];
+        const End middle{0.5 * (at.lo.u + at.hi.u), value, std::fabs(value) > right.doubt};
+        right.lo = middle;
+        right.hi = at.hi;
+        right.depth = at.depth + 1;
+        at.c = left;
+        at.hi = middle;
+        at.doubt = right.doubt;
+        at.depth = right.depth;
     }
-    return rises || falls;
+}
+
+/// Everything is in doubt, or the numbers are too large to compute with.
+template <int N>
+void isolate_unfit(const Bernstein<N>& p, double noise, RootList<N>& out) {
+    bool finite = std::isfinite(noise) && noise >= 0.0;
+    for (const double x : p) finite = finite && std::isfinite(x);
+    if (finite) {
+        // Signs are kept where a number vanishes.
+        Bernstein<N> small;
+        for (std::size_t i = 0; i <= N; ++i) {
+            small[i] = p[i] * 0x1p-30;
+            if (small[i] == 0.0 && p[i] < 0.0) small[i] = -0x1p-1074;
+        }
+        isolate<N>(small, noise * 0x1p-30 + 0x1p-1074, out);
+        return;
+    }
+    Teller<N>(out).blur({0.0, p[0], true}, {1.0, p[N], true}, 0.0, 1.0, 0.5);
 }
 
 }  // namespace
 
 template <int N>
 double crossing_of(const Bernstein<N>& p) {
-    const bool rises = p[0] < 0.0;
-    double lo = 0.0;
-    double hi = 1.0;
-    // From the chord on, Newton's steps; where one leaves the bracket or comes too slowly, a halving.
-    double u = p[0] / (p[0] - p[N]);
-    double last_width = 1.0;
-    for (int i = 0; i < 100; ++i) {
-        if (!(u > lo && u < hi)) u = 0.5 * (lo + hi);
-        double value, slope;
-        evaluate<N>(p, u, value, slope);
-        if ((value < 0.0) == rises) {
-            lo = u;
-        } else {
-            hi = u;
-        }
-        if (value == 0.0) return u;
-        double next = u - value / slope;
-        if (i % 3 == 2) {
-            if (!(hi - lo < 0.5 * last_width)) next = 0.5 * (lo + hi);
-            last_width = hi - lo;
-        }
-        if (!(next > lo && next < hi)) next = 0.5 * (lo + hi);
-        if (std::fabs(next - u) <= 0x1p-53 * (1.0 + u) || hi - lo <= 0x1p-53) return next;
-        u = next;
-    }
-    return u;
+    return zero_within<N>(p, {0.0, 1.0, p[0], p[N], p[0] / (p[0] - p[N])});
 }
 
 template <int N>
 void find_roots(const Bernstein<N>& p, double noise, RootList<N>& out) {
-    std::array<Piece<N>, 64> open;
-    std::size_t count = 0;
-    open[count++] = {p, 0.0, 1.0};
-    while (count > 0) {
-        const Piece<N> at = open[--count];
-        const auto [least, most] = std::minmax_element(at.c.begin(), at.c.end());
-        if (*least > noise || *most < -noise) continue;
-        const int changes = sign_changes(at.c);
-        const bool rises = at.c[0] < 0.0;
-        if (changes == 1) {
-            add(out, {at.lo + (at.hi - at.lo) * crossing_of<N>(at.c), at.lo, at.hi, true, rises});
-            continue;
-        }
-        // Next to a crossing, or to an end, that others tell of.
-        if (changes == 0 && is_monotone<N>(at.c)) continue;
-        if (at.hi - at.lo <= kShortest || std::max(-*least, *most) <= noise) {
-            const bool crosses = (at.c[0] < 0.0) != (at.c[N] < 0.0);
-            add(out, {0.5 * (at.lo + at.hi), at.lo, at.hi, crosses, crosses && rises});
-            continue;
-        }
-        const double middle = 0.5 * (at.lo + at.hi);
-        Piece<N> left{{}, at.lo, middle};
-        Piece<N> right{{}, middle, at.hi};
-        split(at.c, 0.5, left.c, right.c);
-        open[count++] = right;
-        open[count++] = left;
+    bool above = true;
+    bool below = true;
+    bool fit = noise >= 0.0 && noise <= kLargest;
+    for (std::size_t i = 0; i <= N; ++i) {
+        above = above & (p[i] > noise);
+        below = below & (p[i] < -noise);
+        fit = fit & (std::fabs(p[i]) <= kLargest);
+    }
+    if (!fit) {
+        isolate_unfit<N>(p, noise, out);
+    } else if (above || below) {
+        out.count = 0;
+    } else {
+        isolate<N>(p, noise, out);
     }
 }
 

@@ -61,5 +61,6 @@ void add_tree_laws(std::vector<Law>& laws);
 void add_identity_laws(std::vector<Law>& laws);
 void add_start_laws(std::vector<Law>& laws);
 void add_volume_laws(std::vector<Law>& laws);
+void add_root_laws(std::vector<Law>& laws);
 
 }  // namespace raymo::laws

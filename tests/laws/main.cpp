@@ -37,6 +37,7 @@ int main(int argc, char** argv) {
     add_identity_laws(laws);
     add_start_laws(laws);
     add_volume_laws(laws);
+    add_root_laws(laws);
 
     int passed = 0, failed = 0;
     std::uint64_t number = 0;
