@@ -119,9 +119,23 @@ template <int N>
 struct Piece {
     Bernstein<N> c;
     End lo, hi;
+    double least, most;  ///< of c
     double doubt;
     int depth;
+
+    [[nodiscard]] double size() const { return std::max(-least, most); }
 };
+
+/// Least and most of c: no value of p lies outside.
+template <int N>
+RAYMO_INLINE void extremes(const Bernstein<N>& c, double& least, double& most) {
+    least = c[0];
+    most = c[0];
+    for (std::size_t i = 1; i <= N; ++i) {
+        least = c[i] < least ? c[i] : least;
+        most = c[i] > most ? c[i] : most;
+    }
+}
 
 /// The place in [x0, x1], with the values y0 and y1 at its ends, where c passes `level`; `otherwise` where it does not.
 template <int N>
@@ -163,7 +177,7 @@ template <int N>
 void tell_humped(Teller<N>& teller, const Piece<N>& at, const Bernstein<N - 1>& d) {
     // The value at m, computed within 2 N u size. Where the slope is lost in rounding it is no more than 4 N^2 u size there,
     // so that m, wherever it is in that region, misses the extreme value by no more than that.
-    const double size = size_of(at.c);
+    const double size = at.size();
     const double m = zero_within<N - 1>(d, {0.0, 1.0, d[0], d[N - 1], d[0] / (d[0] - d[N - 1])});
     const double value = value_at(at.c, m);
     End middle{at.lo.u + (at.hi.u - at.lo.u) * m, value, false};
@@ -175,37 +189,34 @@ void tell_humped(Teller<N>& teller, const Piece<N>& at, const Bernstein<N - 1>& 
     tell_monotone<N>(teller, at, m, 1.0, middle, at.hi, m + (1.0 - m) * right);
 }
 
-/// Bit i: bits i and i + 1 of `count` bits are different.
-constexpr unsigned changes_within(unsigned bits, int count) {
-    return (bits ^ (bits >> 1U)) & ((1U << static_cast<unsigned>(count - 1)) - 1U);
+/// Of `count` bits: whether those from some place on are different from those before it.
+constexpr bool changes_once(unsigned bits, unsigned count) {
+    const unsigned changes = (bits ^ (bits >> 1U)) & ((1U << (count - 1U)) - 1U);
+    return changes != 0 && (changes & (changes - 1U)) == 0;
 }
 
-constexpr bool is_one_bit(unsigned bits) { return bits != 0 && (bits & (bits - 1U)) == 0; }
+/// Whether the coefficients, the ends apart, are as a simple crossing has them.
+template <int N>
+RAYMO_INLINE bool is_simple(const Piece<N>& at) {
+    const bool rises = at.lo.negative();
+    unsigned negative = rises ? 1U : 1U << N;
+    unsigned positive = rises ? 1U << N : 1U;
+    for (unsigned i = 1; i < N; ++i) {
+        negative |= (at.c[i] < -at.doubt ? 1U : 0U) << i;
+        positive |= (at.c[i] > at.doubt ? 1U : 0U) << i;
+    }
+    return changes_once(negative, N + 1) && changes_once(positive, N + 1);
+}
 
 /// Whether the piece is done.
 template <int N>
 RAYMO_INLINE bool tell(Teller<N>& teller, const Piece<N>& at) {
-    constexpr unsigned kAll = (1U << (N + 1U)) - 1U;
-    constexpr unsigned kLast = 1U << N;
-    unsigned negative = 0;
-    unsigned positive = 0;
-    for (unsigned i = 0; i <= N; ++i) {
-        negative |= (at.c[i] < -at.doubt ? 1U : 0U) << i;
-        positive |= (at.c[i] > at.doubt ? 1U : 0U) << i;
-    }
-    if (at.lo.known) (at.lo.negative() ? negative : positive) |= 1U;
-    if (at.hi.known) (at.hi.negative() ? negative : positive) |= kLast;
-    if (negative == kAll || positive == kAll) return true;
-
-    if (at.lo.known && at.hi.known && is_one_bit(changes_within(negative, N + 1)) &&
-        is_one_bit(changes_within(positive, N + 1)) && at.lo.negative() != at.hi.negative()) {
-        const double y0 = at.c[0];
-        const double y1 = at.c[N];
-        const double x = zero_within<N>(at.c, {0.0, 1.0, y0, y1, 0.0});
+    if (at.lo.known && at.hi.known && at.lo.negative() != at.hi.negative() && is_simple<N>(at)) {
+        const double x = zero_within<N>(at.c, {0.0, 1.0, at.c[0], at.c[N], 0.0});
         teller.crossing(at.lo.u + (at.hi.u - at.lo.u) * x, at.lo, at.hi);
         return true;
     }
-    const bool blurred = at.depth >= kMostDepth || size_of(at.c) <= 2.0 * at.doubt;
+    const bool blurred = at.depth >= kMostDepth || at.size() <= 2.0 * at.doubt;
     if (blurred) {
         teller.blur(at.lo, at.hi, at.lo.u, at.hi.u, 0.5 * (at.lo.u + at.hi.u));
         return true;
@@ -224,7 +235,7 @@ RAYMO_INLINE bool tell(Teller<N>& teller, const Piece<N>& at) {
             tell_monotone<N>(teller, at, 0.0, 1.0, at.lo, at.hi, 0.5);
             return true;
         }
-        if (is_one_bit(changes_within(falls, N))) {
+        if (changes_once(falls, N)) {
             tell_humped<N>(teller, at, d);
             return true;
         }
@@ -235,46 +246,65 @@ RAYMO_INLINE bool tell(Teller<N>& teller, const Piece<N>& at) {
     }
 }
 
-/// 0.5 (a + b) for all neighbours, again and again.
+/// 0.5 (a + b) for all neighbours, again and again. `c` becomes the right half.
 template <int N>
-RAYMO_INLINE void halve(const Bernstein<N>& c, Bernstein<N>& left, Bernstein<N>& right) {
+RAYMO_INLINE void halve(Bernstein<N>& c, Bernstein<N>& left) {
     Bernstein<N> b = c;
     left[0] = b[0];
     for (std::size_t n = N; n > 0; --n) {
         for (std::size_t i = 0; i < n; ++i) b[i] = 0.5 * (b[i] + b[i + 1]);
         left[N + 1 - n] = b[0];
     }
-    right = b;
+    c = b;
 }
 
 template <int N>
-void isolate(const Bernstein<N>& p, double noise, RootList<N>& out) {
+void isolate(const Bernstein<N>& p, double noise, double least, double most, RootList<N>& out) {
     Teller<N> teller(out);
-    std::array<Piece<N>, kMostDepth> waiting;
-    std::size_t count = 0;
+    std::array<Piece<N>, kMostDepth + 1> waiting;
+    Piece<N>* at = waiting.data();
+    at->c = p;
+    at->lo = {0.0, p[0], true};
+    at->hi = {1.0, p[N], true};
+    at->least = least;
+    at->most = most;
+    at->doubt = noise;
+    at->depth = 0;
     int halvings = 0;
-    Piece<N> at{p, {0.0, p[0], true}, {1.0, p[N], true}, noise, 0};
     for (;;) {
-        if (tell<N>(teller, at)) {
-            if (count == 0) return;
-            at = waiting[--count];
+        if (tell<N>(teller, *at)) {
+            if (at-- == waiting.data()) return;
             continue;
         }
-        if (++halvings > kMostHalvings) at.depth = kMostDepth;
-        if (at.depth == kMostDepth) continue;
-        Piece<N>& right = waiting[count++];
-        Bernstein<N> left;
-        halve<N>(at.c, left, right.c);
-        right.doubt = at.doubt + (N * kUnitRoundoff) * size_of(at.c) + N * 0x1p-1074;
-        const double value = left[N];
-        const End middle{0.5 * (at.lo.u + at.hi.u), value, std::fabs(value) > right.doubt};
+        if (++halvings > kMostHalvings) {
+            at->depth = kMostDepth;
+            continue;
+        }
+        Piece<N>& right = *at;
+        Piece<N>& left = *(at + 1);
+        const double doubt = right.doubt + ((N + 1) * kUnitRoundoff) * right.size() + N * 0x1p-1074;
+        halve<N>(right.c, left.c);
+        extremes<N>(left.c, left.least, left.most);
+        extremes<N>(right.c, right.least, right.most);
+        const double value = left.c[N];
+        const End middle{0.5 * (right.lo.u + right.hi.u), value, std::fabs(value) > doubt};
+        left.lo = right.lo;
+        left.hi = middle;
         right.lo = middle;
-        right.hi = at.hi;
-        right.depth = at.depth + 1;
-        at.c = left;
-        at.hi = middle;
-        at.doubt = right.doubt;
-        at.depth = right.depth;
+        left.doubt = doubt;
+        right.doubt = doubt;
+        left.depth = ++right.depth;
+        const bool left_clear = left.least > doubt || left.most < -doubt;
+        const bool right_clear = right.least > doubt || right.most < -doubt;
+        if (right_clear) {
+            if (!left_clear) {
+                right = left;
+                continue;
+            }
+            if (at-- == waiting.data()) return;
+            continue;
+        }
+        if (!left_clear) ++at;
     }
 }
 
@@ -290,7 +320,9 @@ void isolate_unfit(const Bernstein<N>& p, double noise, RootList<N>& out) {
             small[i] = p[i] * 0x1p-30;
             if (small[i] == 0.0 && p[i] < 0.0) small[i] = -0x1p-1074;
         }
-        isolate<N>(small, noise * 0x1p-30 + 0x1p-1074, out);
+        double least, most;
+        extremes<N>(small, least, most);
+        isolate<N>(small, noise * 0x1p-30 + 0x1p-1074, least, most, out);
         return;
     }
     Teller<N>(out).blur({0.0, p[0], true}, {1.0, p[N], true}, 0.0, 1.0, 0.5);
@@ -305,20 +337,18 @@ double crossing_of(const Bernstein<N>& p) {
 
 template <int N>
 void find_roots(const Bernstein<N>& p, double noise, RootList<N>& out) {
-    bool above = true;
-    bool below = true;
-    bool fit = noise >= 0.0 && noise <= kLargest;
-    for (std::size_t i = 0; i <= N; ++i) {
-        above = above & (p[i] > noise);
-        below = below & (p[i] < -noise);
-        fit = fit & (std::fabs(p[i]) <= kLargest);
-    }
-    if (!fit) {
-        isolate_unfit<N>(p, noise, out);
-    } else if (above || below) {
+    double least, most;
+    extremes<N>(p, least, most);
+    if (least > noise || most < -noise) {
         out.count = 0;
+        return;
+    }
+    double sum = noise - noise;
+    for (const double x : p) sum += x - x;  // NaN, unless all are finite
+    if (noise >= 0.0 && noise <= kLargest && sum == 0.0 && least >= -kLargest && most <= kLargest) {
+        isolate<N>(p, noise, least, most, out);
     } else {
-        isolate<N>(p, noise, out);
+        isolate_unfit<N>(p, noise, out);
     }
 }
 

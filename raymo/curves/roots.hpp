@@ -11,13 +11,12 @@
 namespace raymo::curves {
 
 struct Root {
-    double u = 0.0;
+    double u;  ///< its place; the middle of [lo, hi] for a touch
     /// Where it was isolated: the signs at both are different for a crossing and equal for a touch.
-    double lo = 0.0;
-    double hi = 1.0;
+    double lo, hi;
     /// False: p comes within `noise` of zero in [lo, hi], and whether it crosses (twice) is not known.
-    bool crosses = true;
-    bool rises = false;  ///< a crossing from negative to positive
+    bool crosses;
+    bool rises;  ///< a crossing from negative to positive
 };
 
 template <int N>
