@@ -44,6 +44,22 @@ double zero_between(const Powers<N>& f, double lo, double hi, bool rises) {
     return x;
 }
 
+/// The same, by its sign in the middle.
+template <int N>
+double zero_by_bisection(const Powers<N>& f, double lo, double hi, bool rises) {
+    while (hi - lo > 0x1p-53) {
+        const double x = 0.5 * (lo + hi);
+        double value = f[N];
+        for (std::size_t i = N; i-- > 0;) value = value * x + f[i];
+        if ((value < 0.0) == rises) {
+            lo = x;
+        } else {
+            hi = x;
+        }
+    }
+    return 0.5 * (lo + hi);
+}
+
 }  // namespace
 
 template <int N>
@@ -140,7 +156,7 @@ int SturmChain<N>::changes(double x) const {
 }
 
 template <int N>
-SturmRoots<N> sturm_roots(const Powers<N>& f) {
+SturmRoots<N> sturm_roots(const Powers<N>& f, SturmFinish finish) {
     constexpr double kShortest = 0x1p-40;
     struct Interval {
         double lo, hi;
@@ -161,7 +177,8 @@ SturmRoots<N> sturm_roots(const Powers<N>& f) {
             evaluate<N>(f, at.hi, hi, slope);
             if ((lo < 0.0) != (hi < 0.0)) {
                 out.u[static_cast<std::size_t>(out.count++)] =
-                    zero_between<N>(f, at.lo, at.hi, lo < 0.0);
+                    finish == SturmFinish::newton ? zero_between<N>(f, at.lo, at.hi, lo < 0.0)
+                                                  : zero_by_bisection<N>(f, at.lo, at.hi, lo < 0.0);
                 continue;
             }
         }
@@ -180,7 +197,7 @@ SturmRoots<N> sturm_roots(const Powers<N>& f) {
 #define RAYMO_DEGREE(N)                                   \
     template Powers<N> powers_of<N>(const Bernstein<N>&); \
     template class SturmChain<N>;                         \
-    template SturmRoots<N> sturm_roots<N>(const Powers<N>&);
+    template SturmRoots<N> sturm_roots<N>(const Powers<N>&, SturmFinish);
 RAYMO_DEGREE(2)
 RAYMO_DEGREE(3)
 RAYMO_DEGREE(4)

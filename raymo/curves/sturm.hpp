@@ -45,9 +45,16 @@ struct SturmRoots {
     std::array<double, static_cast<std::size_t>(N)> u{};
 };
 
-/// The distinct zeros in (0, 1], ascending: isolated by repeated halving, then found by Newton's steps within their interval.
-/// Zeros closer than 2^-40 count as one. Defined for N = 2..10.
+/// How a zero that is alone in its interval is found.
+enum class SturmFinish {
+    bisection,  ///< as printed
+    newton,     ///< by Newton's steps that stay within the interval
+};
+
+/// The distinct zeros in (0, 1], ascending, isolated by repeated halving, to 2^-53. Zeros closer than 2^-40 count as one.
+/// Defined for N = 2..10.
 template <int N>
-[[nodiscard]] SturmRoots<N> sturm_roots(const Powers<N>& f);
+[[nodiscard]] SturmRoots<N> sturm_roots(const Powers<N>& f,
+                                        SturmFinish finish = SturmFinish::newton);
 
 }  // namespace raymo::curves
