@@ -45,6 +45,7 @@ RAYMO_INLINE double zero_of(const Bernstein<N>& a, double lo, double hi, double 
     constexpr int kMostRounds =
         200;  // each halves a bracket or a step of 53 bits; a few more at first
     double last = hi - lo;
+    double before = 0.0;  // the last step, if it was one
     if (!(s > lo && s < hi)) s = 0.5 * (lo + hi);
     for (int round = 0; round < kMostRounds; ++round) {
         double g, dg, ddg;
@@ -60,16 +61,19 @@ RAYMO_INLINE double zero_of(const Bernstein<N>& a, double lo, double hi, double 
         const double step = newton * (1.0 + 0.5 * z);
         const double next = s - step;
         const double size = std::fabs(step);
-        // Of third order: the next step is to this one at most as the square of what this one is to the last, nearly.
-        const double rest = std::fabs(z) + size / last;
+        // What is left is z^2 / 2 and a term of third order, known from the last step, times this one.
+        const double shrinks = size / before;
+        const double rest = size * (z * z + shrinks * shrinks * shrinks);
         // Where g falls, steps lead to another zero: one at an end, which does not count.
-        const bool arrives = (size * (rest * rest) <= 0x1p-56 * next) | (size <= 0x1p-53 * next);
+        const bool arrives = (rest <= 0x1p-56 * next) | (size <= 0x1p-53 * next);
         if (arrives & (dg > 0.0)) return std::min(std::max(next, lo), hi);
         if ((size <= 0.5 * last) & (next > lo) & (next < hi) & (dg > 0.0)) {
             last = size;
+            before = size;
             s = next;
         } else {
             last = 0.5 * (hi - lo);
+            before = 0.0;
             s = lo + last;
             if (!(s > lo && s < hi)) break;
         }
@@ -113,6 +117,37 @@ RAYMO_INLINE double zero_within(const Bernstein<N>& c, Bracket in) {
         const double s =
             zero_of<N>(a, (1.0 - in.hi) / in.hi, (1.0 - in.lo) / in.lo, (1.0 - guess) / guess);
         return std::min(std::max(1.0 / (1.0 + s), in.lo), in.hi);
+    }
+}
+
+/// The zero of p in [0, 1], at whose ends it has different signs, 0 counting as positive.
+template <int N>
+RAYMO_INLINE double zero_across(const Bernstein<N>& c) {
+    if constexpr (N == 1) {
+        return zero_within<1>(c, {0.0, 1.0, c[0], c[1], 0.0});
+    } else {
+        Bernstein<N> a;
+        double sum = 0.0;  // 2^N p(1/2)
+        for (std::size_t i = 0; i <= N; ++i) {
+            a[i] = binomial(N, static_cast<int>(i)) * c[i];
+            sum += a[i];
+        }
+        // Negative before the zero, as seen from the end where s = 0.
+        const bool rises = c[0] < 0.0;
+        const bool from_start = (sum < 0.0) != rises;
+        if (!from_start) std::reverse(a.begin(), a.end());
+        if (rises != from_start) {
+            for (double& x : a) x = -x;
+            sum = -sum;
+        }
+        // Of the parabola through p at 0, 1/2 and 1.
+        const double middle = sum * (1.0 / (1 << N));
+        const double bend = 2.0 * (a[0] + a[N]) - 4.0 * middle;
+        const double slope = 4.0 * middle - 3.0 * a[0] - a[N];
+        const double root = std::sqrt(std::max(slope * slope - 4.0 * bend * a[0], 0.0));
+        const double guess = -2.0 * a[0] / (slope + root + 2.0 * a[0]);
+        const double s = zero_of<N>(a, 0.0, 1.0, guess);
+        return (from_start ? s : 1.0) / (1.0 + s);
     }
 }
 

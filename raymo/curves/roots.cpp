@@ -178,7 +178,7 @@ void tell_humped(Teller<N>& teller, const Piece<N>& at, const Bernstein<N - 1>& 
     // The value at m, computed within 2 N u size. Where the slope is lost in rounding it is no more than 4 N^2 u size there,
     // so that m, wherever it is in that region, misses the extreme value by no more than that.
     const double size = at.size();
-    const double m = zero_within<N - 1>(d, {0.0, 1.0, d[0], d[N - 1], d[0] / (d[0] - d[N - 1])});
+    const double m = zero_across<N - 1>(d);
     const double value = value_at(at.c, m);
     End middle{at.lo.u + (at.hi.u - at.lo.u) * m, value, false};
     middle.known = std::fabs(value) > at.doubt + (4 * N * N + 2 * N) * kUnitRoundoff * size;
@@ -212,7 +212,7 @@ RAYMO_INLINE bool is_simple(const Piece<N>& at) {
 template <int N>
 RAYMO_INLINE bool tell(Teller<N>& teller, const Piece<N>& at) {
     if (at.lo.known && at.hi.known && at.lo.negative() != at.hi.negative() && is_simple<N>(at)) {
-        const double x = zero_within<N>(at.c, {0.0, 1.0, at.c[0], at.c[N], 0.0});
+        const double x = zero_across<N>(at.c);
         teller.crossing(at.lo.u + (at.hi.u - at.lo.u) * x, at.lo, at.hi);
         return true;
     }
@@ -332,7 +332,7 @@ void isolate_unfit(const Bernstein<N>& p, double noise, RootList<N>& out) {
 
 template <int N>
 double crossing_of(const Bernstein<N>& p) {
-    return zero_within<N>(p, {0.0, 1.0, p[0], p[N], p[0] / (p[0] - p[N])});
+    return zero_across<N>(p);
 }
 
 template <int N>
