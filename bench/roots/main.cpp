@@ -3,7 +3,8 @@
 //     raymo_roots [--runs 9]
 //
 // One thread, CPU time, all methods in turns, medians. The peers get the coefficients of the powers, which they need, for
-// nothing. Exit status 1 when find_roots and Sturm's method count differently on polynomials without near-double roots.
+// nothing. Exit status 1 when find_roots and Sturm's method count
+// differently in more than one of 1,000 polynomials, or eight side by side not as one by one.
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -15,6 +16,7 @@
 
 #include "raymo/curves/roots.hpp"
 #include "raymo/curves/sturm.hpp"
+#include "roots/lanes.hpp"
 #include "roots/peers.hpp"
 
 namespace {
@@ -145,6 +147,46 @@ bool measure_degree(int runs) {
     return agree;
 }
 
+/// What is decided at once, one by one and eight side by side: nothing, or one crossing and its place.
+template <int N>
+bool measure_lanes(Set set, int runs) {
+    constexpr std::size_t kCount = 30'000;
+    std::vector<Bernstein<N>> list;
+    for (const Bernstein<N>& p : polynomials<N>(set, 2 * kCount)) {
+        if (sign_changes(p) <= 1 && list.size() < kCount / 4) list.push_back(p);
+    }
+    list.resize(list.size() / 8 * 8);
+    std::vector<double> blocks(list.size() * (N + 1));
+    for (std::size_t k = 0; k < list.size(); ++k) {
+        for (std::size_t i = 0; i <= N; ++i)
+            blocks[k / 8 * 8 * (N + 1) + 8 * i + k % 8] = list[k][i];
+    }
+    std::vector<double> one_by_one, together;
+    std::size_t roots = 0;
+    raymo::bench::LaneCounts counts;
+    for (int run = 0; run < runs; ++run) {
+        double start = cpu_seconds();
+        roots = 0;
+        for (const Bernstein<N>& p : list) {
+            RootList<N> found;
+            find_roots<N>(p, 0.0, found);
+            roots += static_cast<std::size_t>(found.count);
+        }
+        one_by_one.push_back(cpu_seconds() - start);
+        start = cpu_seconds();
+        counts = raymo::bench::count_in_lanes(N, blocks.data(), list.size());
+        together.push_back(cpu_seconds() - start);
+    }
+    std::sort(one_by_one.begin(), one_by_one.end());
+    std::sort(together.begin(), together.end());
+    const auto half = static_cast<std::size_t>(runs) / 2;
+    const double scale = 1e9 / static_cast<double>(list.size());
+    std::printf("| %d | %s | %.1f | %.1f | %.1f | %.3f |\n", N, kNames[static_cast<int>(set)],
+                scale * one_by_one[half], scale * together[half], one_by_one[half] / together[half],
+                static_cast<double>(roots) / static_cast<double>(list.size()));
+    return roots == counts.one && counts.none + counts.one == list.size();
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -164,5 +206,13 @@ int main(int argc, char** argv) {
     agree &= measure_degree<4>(runs);
     agree &= measure_degree<6>(runs);
     agree &= measure_degree<10>(runs);
+    std::printf(
+        "\nDecided at once: ns a polynomial\n\n"
+        "| degree | set | one by one | eight side by side | times | roots |\n"
+        "|---|---|---|---|---|---|\n");
+    for (const Set set : {Set::random, Set::miss}) {
+        agree &= measure_lanes<3>(set, runs);
+        agree &= measure_lanes<4>(set, runs);
+    }
     return agree ? 0 : 1;
 }

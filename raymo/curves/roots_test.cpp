@@ -3,6 +3,9 @@
 #include <doctest/doctest.h>
 
 #include <random>
+#include <string>
+
+#include "raymo/math/lanes.hpp"
 
 namespace raymo::curves {
 namespace {
@@ -74,6 +77,194 @@ TEST_CASE("the number of crossings has the parity that the signs at the ends ask
         }
         CHECK(negative == (p[6] < 0.0));
     }
+}
+
+// Four numbers with the operations of math/lanes.hpp, in place of a register.
+struct Mask4 {
+    std::array<bool, 4> m;
+};
+struct Four {
+    std::array<double, 4> v;
+
+    Four() = default;
+    explicit Four(double x) : v{x, x, x, x} {}
+};
+template <class F>
+Four each(Four a, Four b, F f) {
+    for (std::size_t i = 0; i < 4; ++i) a.v[i] = f(a.v[i], b.v[i]);
+    return a;
+}
+template <class F>
+Mask4 test(Four a, Four b, F f) {
+    Mask4 out{};
+    for (std::size_t i = 0; i < 4; ++i) out.m[i] = f(a.v[i], b.v[i]);
+    return out;
+}
+Four operator+(Four a, Four b) { return each(a, b, std::plus<>()); }
+Four operator-(Four a, Four b) { return each(a, b, std::minus<>()); }
+Four operator*(Four a, Four b) { return each(a, b, std::multiplies<>()); }
+Four operator/(Four a, Four b) { return each(a, b, std::divides<>()); }
+Mask4 operator<(Four a, Four b) { return test(a, b, std::less<>()); }
+Mask4 operator>(Four a, Four b) { return test(a, b, std::greater<>()); }
+Mask4 operator<=(Four a, Four b) { return test(a, b, std::less_equal<>()); }
+Four lane_abs(Four a) {
+    return each(a, a, [](double x, double) { return std::fabs(x); });
+}
+Four lane_sqrt(Four a) {
+    return each(a, a, [](double x, double) { return std::sqrt(x); });
+}
+Four lane_select(Mask4 mask, Four yes, Four no) {
+    for (std::size_t i = 0; i < 4; ++i) no.v[i] = mask.m[i] ? yes.v[i] : no.v[i];
+    return no;
+}
+Four lane_min(Four a, Four b) { return lane_select(a < b, a, b); }
+Four lane_max(Four a, Four b) { return lane_select(a > b, a, b); }
+Mask4 lane_and(Mask4 a, Mask4 b) {
+    for (std::size_t i = 0; i < 4; ++i) a.m[i] = a.m[i] && b.m[i];
+    return a;
+}
+Mask4 lane_not(Mask4 a) {
+    for (bool& x : a.m) x = !x;
+    return a;
+}
+Mask4 lane_or(Mask4 a, Mask4 b) { return lane_not(lane_and(lane_not(a), lane_not(b))); }
+bool lane_any(Mask4 a) { return a.m[0] || a.m[1] || a.m[2] || a.m[3]; }
+
+using raymo::lane_abs;
+using raymo::lane_and;
+using raymo::lane_any;
+using raymo::lane_max;
+using raymo::lane_min;
+using raymo::lane_not;
+using raymo::lane_or;
+using raymo::lane_select;
+using raymo::lane_sqrt;
+#include "raymo/curves/crossings.inl"
+
+template <int N>
+void compare_lanes() {
+    std::mt19937_64 random(11);
+    std::uniform_real_distribution<double> any(-1.0, 1.0);
+    int none = 0;
+    int one = 0;
+    for (int k = 0; k < 30000; ++k) {
+        Bernstein<N> p[4];
+        Four c[N + 1];
+        for (std::size_t lane = 0; lane < 4; ++lane) {
+            for (std::size_t i = 0; i <= N; ++i) {
+                double x = any(random) + (k % 2 == 0 ? 0.4 : 0.0);
+                if (k % 3 == 0) x *= std::ldexp(1.0, -static_cast<int>(random() % 60));
+                if (random() % 16 == 0) x = 0.0;
+                p[lane][i] = x;
+                c[i].v[lane] = x;
+            }
+        }
+        const double noise = k % 5 == 0 ? 1e-9 : 0.0;
+        const auto told = lane_crossings<N, Four, Mask4>(c, Four(noise));
+        for (std::size_t lane = 0; lane < 4; ++lane) {
+            double alone[N + 1];
+            std::copy_n(p[lane].begin(), N + 1, alone);
+            const auto single = lane_crossings<N, double, bool>(alone, noise);
+            REQUIRE(single.none == told.none.m[lane]);
+            REQUIRE(single.one == told.one.m[lane]);
+            RootList<N> list;
+            find_roots<N>(p[lane], noise, list);
+            if (single.none) {
+                ++none;
+                REQUIRE(list.count == 0);
+            }
+            if (single.one) {
+                ++one;
+                REQUIRE(list.count == 1);
+                const Root& root = list.root[0];
+                REQUIRE(root.crosses);
+                REQUIRE(root.rises == told.rises.m[lane]);
+                REQUIRE(root.u == told.u.v[lane]);
+                REQUIRE(root.u == single.u);
+                REQUIRE(crossing_of<N>(p[lane]) == single.u);
+            }
+        }
+    }
+    CHECK(none > 1000);
+    CHECK(one > 1000);
+}
+
+TEST_CASE("several polynomials at a time give the same bits as one") {
+    compare_lanes<3>();
+    compare_lanes<4>();
+}
+
+/// "X0.5+ T0.25" for a crossing at 0.5 that rises and a touch at 0.25.
+template <int N>
+std::string told(const Bernstein<N>& p, double noise) {
+    RootList<N> list;
+    find_roots<N>(p, noise, list);
+    std::string out;
+    for (const Root& root : list) {
+        char text[40];
+        std::snprintf(text, sizeof text, "%s%c%.4g%s", out.empty() ? "" : " ",
+                      root.crosses ? 'X' : 'T', root.u, root.crosses ? root.rises ? "+" : "-" : "");
+        out += text;
+    }
+    return out;
+}
+
+TEST_CASE("roots at dyadic places, where pieces meet") {
+    CHECK(told<2>({0.25, -0.25, 0.25}, 0.0) == "T0.5");     // (u - 1/2)^2
+    CHECK(told<2>({-0.25, 0.25, -0.25}, 1e-16) == "T0.5");  // from below
+    CHECK(told<3>({-1, 1, -1, 1}, 0.0) == "X0.5+");         // (2 u - 1)^3
+    CHECK(told<4>({1, -1, 1, -1, 1}, 0.0) == "T0.5");       // (2 u - 1)^4
+    CHECK(told<1>({-1, 1}, 0.0) == "X0.5+");
+}
+
+TEST_CASE("0 counts as positive at both ends") {
+    CHECK(told<2>({0, 1, 1}, 0.0).empty());
+    CHECK(told<1>({0, -1}, 0.0) == "X0-");
+    CHECK(told<1>({-1, 0}, 0.0) == "X1+");
+    CHECK(told<2>({-0.0, 1, 1}, 0.0).empty());
+    CHECK(told<4>({-2, -1, 0, 1, 0}, 0.0).substr(0, 1) == "X");
+    CHECK(told<3>({1, 1, 0, 0}, 1e-15).empty());  // level at the end: the next piece knows
+}
+
+TEST_CASE("what is within the noise is in doubt") {
+    CHECK(told<3>({0, 0, 0, 0}, 0.0) == "T0.5");
+    CHECK(told<3>({1e-17, -1e-17, 1e-17, -1e-17}, 1e-15) == "X0.5-");
+    CHECK(told<2>({0.25, -0.25 + 1e-9, 0.25}, 1e-8) == "T0.5");
+    CHECK(told<2>({0.25, -0.25 + 1e-9, 0.25}, 1e-12).empty());
+    RootList<2> touch;
+    find_roots<2>({0.25, -0.25, 0.25}, 1e-6, touch);
+    REQUIRE(touch.count == 1);
+    CHECK(touch.root[0].lo == doctest::Approx(0.499).epsilon(1e-6));
+    CHECK(touch.root[0].hi == doctest::Approx(0.501).epsilon(1e-6));
+}
+
+TEST_CASE("a pair of roots closer than halvings would come") {
+    // (u - 1/3)^2 - d^2
+    for (const double d : {1e-3, 1e-5, 1e-6}) {
+        const double third = 1.0 / 3.0;
+        const Bernstein<2> p{third * third - d * d, -third * (1 - third) - d * d,
+                             (1 - third) * (1 - third) - d * d};
+        RootList<2> list;
+        find_roots<2>(p, 0.0, list);
+        REQUIRE(list.count == 2);
+        CHECK(list.root[0].u == doctest::Approx(third - d).epsilon(1e-9));
+        CHECK(list.root[1].u == doctest::Approx(third + d).epsilon(1e-9));
+        CHECK(list.root[0].hi <= list.root[1].lo);
+    }
+}
+
+TEST_CASE("numbers that are none, and very large ones, have a defined answer") {
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    const double infinity = std::numeric_limits<double>::infinity();
+    CHECK(told<3>({1, nan, 0, -1}, 0.0) == "X0.5-");
+    CHECK(told<3>({1, infinity, -1, 1}, 0.0) == "T0.5");
+    CHECK(told<3>({1, -1, 1, 1}, nan) == "T0.5");
+    CHECK(told<3>({1, -1, 1, 1}, infinity) == "T0.5");
+    CHECK(told<3>({1e308, -1e308, 1e308, -1e308}, 0.0) == "X0.5-");
+    CHECK(told<3>({-1e-308, -1e308, 1e308, -1e-308}, 0.0).substr(0, 5) == "X0.5+");
+    CHECK(told<2>({5e-324, -5e-324, 5e-324}, 0.0).substr(0, 1) == "T");
+    for (const double u : {crossing_of<3>({nan, nan, nan, nan}), crossing_of<3>({1, 1, 1, 1})})
+        CHECK_FALSE(u > 1.0);
 }
 
 }  // namespace

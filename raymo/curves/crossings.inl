@@ -1,0 +1,130 @@
+// Polynomials of low degree, one or several at a time (see math/lanes.hpp): which have no root in [0, 1], which have one
+// crossing, and where it is. Included once per instruction set.
+//
+// What is decided is what find_roots decides at once, and the crossing is that of crossing_of (curves/crossing.hpp, where the
+// steps are explained) bit for bit: the operations are the same in the same order. What is neither needs find_roots.
+template <class R, class M>
+struct LaneCrossing {
+    M none;   ///< certainly no root
+    M one;    ///< certainly one crossing, and nothing else
+    M rises;  ///< from negative to positive, where there is one
+    R u;      ///< its place, where there is one
+};
+
+/// g(s) = sum of a[i] s^i is negative at 0 and not at 1: its zero there, in the lanes that are `active`.
+template <int N, class R, class M>
+RAYMO_INLINE R lane_zero(const R (&a)[N + 1], R s, M active) {
+    R lo(0.0), hi(1.0), last(1.0), before(0.0), found(0.5);
+    s = lane_select(lane_and(s > lo, s < hi), s, R(0.5) * (lo + hi));
+    for (int round = 0; round < 200 && lane_any(active); ++round) {
+        R g = a[N], dg(0.0), ddg(0.0);
+        for (int i = N; i-- > 0;) {
+            ddg = ddg * s + dg;
+            dg = dg * s + g;
+            g = g * s + a[i];
+        }
+        ddg = ddg * R(2.0);
+        const M below = g < R(0.0);
+        lo = lane_select(below, s, lo);
+        hi = lane_select(below, hi, s);
+        const R inverse = R(1.0) / dg;
+        const R newton = g * inverse;
+        R z = newton * (ddg * inverse);
+        z = lane_select(z > R(0.5), R(0.5), z);
+        z = lane_select(z < R(-0.5), R(-0.5), z);
+        const R step = newton * (R(1.0) + R(0.5) * z);
+        const R next = s - step;
+        const R size = lane_abs(step);
+        const R shrinks = size / before;
+        const R rest = size * (z * z + shrinks * shrinks * shrinks);
+        const M up = dg > R(0.0);
+        const M arrives =
+            lane_and(up, lane_or(rest <= R(0x1p-56) * next, size <= R(0x1p-53) * next));
+        found = lane_select(lane_and(active, arrives), lane_min(lane_max(next, lo), hi), found);
+        active = lane_and(active, lane_not(arrives));
+        const M steps =
+            lane_and(lane_and(size <= R(0.5) * last, up), lane_and(next > lo, next < hi));
+        const R half = R(0.5) * (hi - lo);
+        last = lane_select(steps, size, half);
+        before = lane_select(steps, size, R(0.0));
+        s = lane_select(steps, next, lo + half);
+        const M stuck = lane_and(active, lane_not(lane_and(s > lo, s < hi)));
+        found = lane_select(stuck, s, found);
+        active = lane_and(active, lane_not(stuck));
+    }
+    return lane_select(active, s, found);
+}
+
+/// The crossing of c, which has different signs at 0 and 1, in the lanes that are `active`.
+template <int N, class R, class M>
+RAYMO_INLINE R lane_crossing(const R (&c)[N + 1], M active) {
+    R a[N + 1];
+    R sum(0.0);
+    for (int i = 0; i <= N; ++i) {
+        a[i] = R(curves::binomial(N, i)) * c[i];
+        sum = sum + a[i];
+    }
+    const M rises = c[0] < R(0.0);
+    const M middle_below = sum < R(0.0);
+    const M from_start =
+        lane_or(lane_and(middle_below, lane_not(rises)), lane_and(lane_not(middle_below), rises));
+    const M flips =
+        lane_or(lane_and(rises, lane_not(from_start)), lane_and(lane_not(rises), from_start));
+    for (int i = 0; i < N - i; ++i) {
+        const R first = a[i];
+        const R other = a[N - i];
+        a[i] = lane_select(from_start, first, other);
+        a[N - i] = lane_select(from_start, other, first);
+    }
+    const R sign = lane_select(flips, R(-1.0), R(1.0));
+    for (int i = 0; i <= N; ++i) a[i] = a[i] * sign;
+    sum = sum * sign;
+    const R middle = sum * R(1.0 / (1 << N));
+    const R bend = R(2.0) * (a[0] + a[N]) - R(4.0) * middle;
+    const R slope = R(4.0) * middle - R(3.0) * a[0] - a[N];
+    const R root = lane_sqrt(lane_max(slope * slope - R(4.0) * bend * a[0], R(0.0)));
+    const R guess = R(-2.0) * a[0] / (slope + root + R(2.0) * a[0]);
+    const R s = lane_zero<N>(a, guess, active);
+    return lane_select(from_start, s, R(1.0)) / (R(1.0) + s);
+}
+
+/// `noise` (>= 0, finite) as in find_roots; coefficients of at most 2^1000.
+template <int N, class R, class M>
+RAYMO_INLINE LaneCrossing<R, M> lane_crossings(const R (&c)[N + 1], R noise) {
+    const R minus = R(0.0) - noise;
+    const M rises = c[0] < R(0.0);
+    const M ends_negative = c[N] < R(0.0);
+    const M falls = lane_and(ends_negative, lane_not(rises));
+    M above = c[0] > noise;
+    M below = c[0] < minus;
+    // Signs that are known; at the ends they are taken as they stand.
+    M negative = rises;
+    M positive = lane_not(rises);
+    M back = lane_and(rises, ends_negative);  // some change goes the wrong way
+    M forth = lane_and(lane_not(rises), lane_not(ends_negative));
+    for (int i = 1; i <= N; ++i) {
+        M now_negative = c[i] < minus;
+        M now_positive = c[i] > noise;
+        above = lane_and(above, now_positive);
+        below = lane_and(below, now_negative);
+        if (i == N) {
+            now_negative = ends_negative;
+            now_positive = lane_not(ends_negative);
+        }
+        back = lane_or(back, lane_or(lane_and(now_negative, lane_not(negative)),
+                                     lane_and(positive, lane_not(now_positive))));
+        forth = lane_or(forth, lane_or(lane_and(negative, lane_not(now_negative)),
+                                       lane_and(now_positive, lane_not(positive))));
+        negative = now_negative;
+        positive = now_positive;
+    }
+    LaneCrossing<R, M> out;
+    out.none = lane_or(above, below);
+    out.rises = rises;
+    out.one = lane_and(lane_not(out.none),
+                       lane_or(lane_and(lane_and(rises, lane_not(ends_negative)), lane_not(back)),
+                               lane_and(falls, lane_not(forth))));
+    out.u = R(0.5);
+    if (lane_any(out.one)) out.u = lane_crossing<N>(c, out.one);
+    return out;
+}
