@@ -3,7 +3,8 @@
 // On the half where u <= 1/2 let s = u / (1 - u) in [0, 1] and a[i] = binomial(n, i) c[i]. Then
 //     p(u) (1 + s)^n = g(s) = sum over i of a[i] s^i,                                            (1)
 // so p and g have the same signs, and g costs n multiplications and additions where de Casteljau's construction costs n^2. As
-// s >= 0 its terms are those of p times one positive number: Horner's rule is as accurate for g as the construction is for p,
+// s >= 0 its terms are those of p times one positive number: Horner's rule (here one for even and one for odd powers, which
+// do not wait for each other) is as accurate for g as the construction is for p,
 //     |error of g| <= 2 n u sum over i of |a[i]| s^i   (u: the unit roundoff)          [Higham02 5.1], [Farouki87].
 // The other half is done from its end: 1 - u takes the place of u and the coefficients are read backwards.
 //
@@ -25,18 +26,29 @@ struct Bracket {
     double guess;  ///< of the zero; any number
 };
 
-/// g, g' and g'' at s.
-template <int N>
-RAYMO_INLINE void horner(const Bernstein<N>& a, double s, double& g, double& dg, double& ddg) {
-    g = a[N];
-    dg = 0.0;
-    ddg = 0.0;
-    for (std::size_t i = N; i-- > 0;) {
-        ddg = ddg * s + dg;
-        dg = dg * s + g;
-        g = g * s + a[i];
+/// Sum of b[i] s^i, even and odd powers side by side; t = s^2.
+template <std::size_t M>
+RAYMO_INLINE double power_sum(const std::array<double, M>& b, double s, double t) {
+    static_assert(M > 0);
+    constexpr std::size_t kEven = (M - 1) / 2 * 2;
+    double even = b[kEven];
+    for (std::size_t i = kEven; i > 0; i -= 2) even = even * t + b[i - 2];
+    if constexpr (M == 1) {
+        return even;
+    } else {
+        constexpr std::size_t kOdd = M / 2 * 2 - 1;
+        double odd = b[kOdd];
+        for (std::size_t i = kOdd; i > 1; i -= 2) odd = odd * t + b[i - 2];
+        return even + s * odd;
     }
-    ddg *= 2.0;
+}
+
+/// Coefficients of the derivative of a sum of powers.
+template <std::size_t M>
+RAYMO_INLINE std::array<double, M - 1> slope_of(const std::array<double, M>& b) {
+    std::array<double, M - 1> d;
+    for (std::size_t i = 0; i + 1 < M; ++i) d[i] = static_cast<double>(i + 1) * b[i + 1];
+    return d;
 }
 
 /// The zero of g between lo and hi, where g is negative at lo and not at hi. Costs some 20 ns a round, four rounds for most.
@@ -46,10 +58,14 @@ RAYMO_INLINE double zero_of(const Bernstein<N>& a, double lo, double hi, double 
         200;  // each halves a bracket or a step of 53 bits; a few more at first
     double last = hi - lo;
     double before = 0.0;  // the last step, if it was one
+    const auto a1 = slope_of(a);
+    const auto a2 = slope_of(a1);
     if (!(s > lo && s < hi)) s = 0.5 * (lo + hi);
     for (int round = 0; round < kMostRounds; ++round) {
-        double g, dg, ddg;
-        horner<N>(a, s, g, dg, ddg);
+        const double t = s * s;
+        const double g = power_sum(a, s, t);
+        const double dg = power_sum(a1, s, t);
+        const double ddg = power_sum(a2, s, t);
         // Chosen without branches, which would be mistaken every other time.
         lo = g < 0.0 ? s : lo;
         hi = g < 0.0 ? hi : s;

@@ -1,4 +1,4 @@
-// Polynomials of low degree, one or several at a time (see math/lanes.hpp): which have no root in [0, 1], which have one
+// Polynomials of low degree (2 or more), one or several at a time (see math/lanes.hpp): which have no root in [0, 1], which have one
 // crossing, and where it is. Included once per instruction set.
 //
 // What is decided is what find_roots decides at once, and the crossing is that of crossing_of (curves/crossing.hpp, where the
@@ -11,19 +11,34 @@ struct LaneCrossing {
     R u;      ///< its place, where there is one
 };
 
+/// Sum of b[i] s^i, i <= K, even and odd powers side by side; t = s^2.
+template <int K, class R>
+RAYMO_INLINE R lane_power_sum(const R (&b)[K + 1], R s, R t) {
+    R even = b[K / 2 * 2];
+    for (int i = K / 2 * 2; i > 0; i -= 2) even = even * t + b[i - 2];
+    if constexpr (K == 0) {
+        return even;
+    } else {
+        constexpr int kOdd = (K + 1) / 2 * 2 - 1;
+        R odd = b[kOdd];
+        for (int i = kOdd; i > 1; i -= 2) odd = odd * t + b[i - 2];
+        return even + s * odd;
+    }
+}
+
 /// g(s) = sum of a[i] s^i is negative at 0 and not at 1: its zero there, in the lanes that are `active`.
 template <int N, class R, class M>
 RAYMO_INLINE R lane_zero(const R (&a)[N + 1], R s, M active) {
     R lo(0.0), hi(1.0), last(1.0), before(0.0), found(0.5);
+    R a1[N], a2[N - 1];
+    for (int i = 0; i < N; ++i) a1[i] = R(static_cast<double>(i + 1)) * a[i + 1];
+    for (int i = 0; i < N - 1; ++i) a2[i] = R(static_cast<double>(i + 1)) * a1[i + 1];
     s = lane_select(lane_and(s > lo, s < hi), s, R(0.5) * (lo + hi));
     for (int round = 0; round < 200 && lane_any(active); ++round) {
-        R g = a[N], dg(0.0), ddg(0.0);
-        for (int i = N; i-- > 0;) {
-            ddg = ddg * s + dg;
-            dg = dg * s + g;
-            g = g * s + a[i];
-        }
-        ddg = ddg * R(2.0);
+        const R t = s * s;
+        const R g = lane_power_sum<N>(a, s, t);
+        const R dg = lane_power_sum<N - 1>(a1, s, t);
+        const R ddg = lane_power_sum<N - 2>(a2, s, t);
         const M below = g < R(0.0);
         lo = lane_select(below, s, lo);
         hi = lane_select(below, hi, s);
