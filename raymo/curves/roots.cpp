@@ -258,6 +258,23 @@ RAYMO_INLINE void halve(Bernstein<N>& c, Bernstein<N>& left) {
     c = b;
 }
 
+constexpr double doubt_of_halves(int degree, double doubt, double size) {
+    return doubt + ((degree + 1) * kUnitRoundoff) * size + degree * 0x1p-1074;
+}
+
+/// Whether both halves are clear: what is left to do for most polynomials without roots that are not clear themselves.
+template <int N>
+RAYMO_INLINE bool halves_are_clear(const Bernstein<N>& p, double noise, double least, double most) {
+    Bernstein<N> right = p;
+    Bernstein<N> left;
+    halve<N>(right, left);
+    const double doubt = doubt_of_halves(N, noise, std::max(-least, most));
+    extremes<N>(left, least, most);
+    double least_right, most_right;
+    extremes<N>(right, least_right, most_right);
+    return std::min(least, least_right) > doubt || std::max(most, most_right) < -doubt;
+}
+
 template <int N>
 void isolate(const Bernstein<N>& p, double noise, double least, double most, RootList<N>& out) {
     Teller<N> teller(out);
@@ -346,6 +363,10 @@ void find_roots(const Bernstein<N>& p, double noise, RootList<N>& out) {
     double sum = noise - noise;
     for (const double x : p) sum += x - x;  // NaN, unless all are finite
     if (noise >= 0.0 && noise <= kLargest && sum == 0.0 && least >= -kLargest && most <= kLargest) {
+        if ((p[0] < 0.0) == (p[N] < 0.0) && halves_are_clear<N>(p, noise, least, most)) {
+            out.count = 0;
+            return;
+        }
         isolate<N>(p, noise, least, most, out);
     } else {
         isolate_unfit<N>(p, noise, out);
