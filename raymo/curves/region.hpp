@@ -47,6 +47,11 @@ public:
     [[nodiscard]] const Box2& box() const { return nodes_.front().box; }
     /// Number of smooth stretches.
     [[nodiscard]] std::uint32_t runs() const { return runs_; }
+    /// Memory it takes.
+    [[nodiscard]] double bytes() const {
+        return static_cast<double>(sizeof(Region) + pieces_.capacity() * sizeof(Piece) +
+                                   nodes_.capacity() * sizeof(Node));
+    }
 
     /// Calls visit(piece index) for all pieces in boxes for which meets(box) holds all the way down.
     template <class Meets, class Visit>

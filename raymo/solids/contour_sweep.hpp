@@ -42,6 +42,7 @@ public:
     [[nodiscard]] Where where(Vec3 p, Vec3 e) const;
     [[nodiscard]] std::span<const std::string_view> faces() const;
     [[nodiscard]] const curves::Region& region() const { return *region_; }
+    [[nodiscard]] double bytes() const { return region_->bytes(); }
     [[nodiscard]] double ratio() const { return ratio_; }
     friend bool operator==(const ContourSweep& a, const ContourSweep& b) {
         return a.ratio_ == b.ratio_ && a.flipped_ == b.flipped_ &&

@@ -34,6 +34,8 @@ concept Kernel = std::copyable<K> &&
     { k == k } -> std::same_as<bool>;  ///< Equal kernels are stored once.
 };
 
+/// Kernels that keep curves also have bytes(): the memory that these take, for the limit of a program.
+
 /// A kernel and the map from its canonical frame to the frame in which the user wrote the solid.
 template <class K>
 struct Placed {

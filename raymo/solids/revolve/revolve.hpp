@@ -24,6 +24,7 @@ struct Revolve {
         [[nodiscard]] Where where(Vec3 p, Vec3 e) const;
         [[nodiscard]] std::span<const std::string_view> faces() const;
         [[nodiscard]] const curves::Region& region() const { return *region_; }
+        [[nodiscard]] double bytes() const { return region_->bytes(); }
         [[nodiscard]] double angle() const { return angle_; }
 
         friend bool operator==(const Kernel& a, const Kernel& b) {
