@@ -26,6 +26,9 @@ void include_values(const Bernstein<3>& p, const Bernstein<3>& w, double& lo, do
     };
     include(p[0] / w[0]);
     include(p[3] / w[3]);
+    // The curve lies in the hull of its control points.
+    const auto [least, most] = std::minmax({p[1] / w[1], p[2] / w[2]});
+    if (least >= lo && most <= hi) return;
     const auto slope = sum_of(product(derivative(p), w), product(p, derivative(w)), -1.0);
     RootList<5> roots;
     find_roots<5>(slope, 0.0, roots);
