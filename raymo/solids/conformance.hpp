@@ -17,22 +17,12 @@
 #include <vector>
 
 #include "raymo/math/tolerance.hpp"
-#include "raymo/solids/conformance_contour.hpp"
 #include "raymo/solids/inventory.hpp"
+#include "raymo/solids/sweep/test_field.hpp"
+#include "raymo/solids/test_contour_field.hpp"
+#include "raymo/solids/test_quad.hpp"
 
 namespace raymo::solids::conformance {
-
-inline Quad quad_sqrt(Quad a) {
-    if (!(a > 0)) return 0;
-    Quad r = std::sqrt(static_cast<long double>(a));
-    r = (r + a / r) / 2;
-    return (r + a / r) / 2;
-}
-inline Quad quad_abs(Quad a) { return a < 0 ? -a : a; }
-
-struct QuadPoint {
-    Quad x, y, z;
-};
 
 /// A function that is negative inside and positive outside; zero on the boundary.
 inline Quad field(const Block::Kernel&, const QuadPoint& p) {

@@ -13,6 +13,7 @@
 #include "raymo/solids/quadric/quadric.hpp"
 #include "raymo/solids/revolve/revolve.hpp"
 #include "raymo/solids/sphere/sphere.hpp"
+#include "raymo/solids/sweep/sweep.hpp"
 #include "raymo/solids/torus/torus.hpp"
 
 namespace raymo::solids {
@@ -29,7 +30,7 @@ struct List {
 };
 
 using Inventory =
-    List<Block, Sphere, Cylinder, Cone, Torus, Halfspace, Quadric, Prism, Conic, Revolve>;
+    List<Block, Sphere, Cylinder, Cone, Torus, Halfspace, Quadric, Prism, Conic, Revolve, Sweep>;
 
 /// Any kernel of the inventory.
 using AnyKernel = Inventory::Kernels;

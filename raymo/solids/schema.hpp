@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <limits>
 #include <optional>
 #include <span>
@@ -26,10 +27,13 @@ enum class ParamKind : unsigned char {
     contour,  ///< closed curves of the plane
     profile,  ///< curves of the half-plane beside an axis, of which one may be open
     path,     ///< spheres along a curve in space
+    choice,   ///< one of `choices`
 };
 
 using Matrix4 = std::array<double, 16>;
-using Argument = std::variant<double, bool, Vec3, Matrix4, curves::OutlinePtr, curves::PathPtr>;
+/// A choice is the number of the word among the choices.
+using Argument =
+    std::variant<double, bool, Vec3, Matrix4, curves::OutlinePtr, curves::PathPtr, std::size_t>;
 
 struct Param {
     std::string_view name;   ///< as written in the language
@@ -43,6 +47,8 @@ struct Param {
     std::optional<Argument> fallback = std::nullopt;
     /// Another name under which twice the value may be given ("d" beside the radius "r"); empty: none.
     std::string_view diameter = {};
+    /// The words that may be given for a choice.
+    std::span<const std::string_view> choices = {};
 };
 
 struct Schema {

@@ -18,8 +18,18 @@ std::string shown(double value) {
     return {text.data(), std::to_chars(text.data(), text.data() + text.size(), value).ptr};
 }
 
-std::string_view kind_words(ParamKind kind) {
-    switch (kind) {
+/// The words of a choice as the language writes them.
+std::string choice_words(const Param& param) {
+    std::string out;
+    for (const std::string_view word : param.choices) {
+        if (!out.empty()) out += word == param.choices.back() ? " or " : ", ";
+        out += "`\"" + std::string(word) + "\"`";
+    }
+    return out;
+}
+
+std::string kind_words(const Param& param) {
+    switch (param.kind) {
         case ParamKind::length:
             return "length [mm]";
         case ParamKind::number:
@@ -41,6 +51,8 @@ std::string_view kind_words(ParamKind kind) {
             return "contour, or an open curve that is closed along the axis";
         case ParamKind::path:
             return "path";
+        case ParamKind::choice:
+            return choice_words(param);
     }
     return {};
 }
@@ -51,7 +63,10 @@ std::string range_words(const Param& param) {
 }
 
 /// The value that a parameter has when it is left out, as the language writes it.
-std::string fallback(const solids::Argument& value) {
+std::string fallback(const Param& param) {
+    const solids::Argument& value = *param.fallback;
+    if (const std::size_t* choice = std::get_if<std::size_t>(&value))
+        return "\"" + std::string(param.choices[*choice]) + "\"";
     if (const bool* flag = std::get_if<bool>(&value)) return *flag ? "true" : "false";
     if (const double* number = std::get_if<double>(&value)) return shown(*number);
     std::string out = "(";
@@ -67,7 +82,7 @@ std::string fallback_words(const Param& param) {
     std::string out = "required";
     if (param.fallback) {
         out = "`";
-        out += fallback(*param.fallback);
+        out += fallback(param);
         out += "`";
     }
     return out;
@@ -79,7 +94,7 @@ std::string signature(const solids::Schema& schema) {
     for (const Param& param : schema.params) {
         out += separator;
         out += param.name;
-        if (param.fallback) out += ": " + fallback(*param.fallback);
+        if (param.fallback) out += ": " + fallback(param);
         separator = ", ";
     }
     return out + ")";
@@ -107,7 +122,7 @@ void print(const solids::Entry& entry) {
     for (const Param& param : schema.params) {
         std::cout << "| `" << param.name << "` | " << param.doc;
         if (!param.diameter.empty()) std::cout << "; or `" << param.diameter << "`, twice that";
-        std::cout << " | " << kind_words(param.kind) << " | " << range_words(param) << " | "
+        std::cout << " | " << kind_words(param) << " | " << range_words(param) << " | "
                   << fallback_words(param) << " |\n";
     }
     std::cout << "\nFaces: " << faces(entry) << ".\n\n```raymo\n" << schema.example << "\n```\n";

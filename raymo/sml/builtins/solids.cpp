@@ -97,6 +97,12 @@ bool take(Call& call, const solids::Param& param, std::size_t slot, std::size_t 
             out = std::move(path);
             return true;
         }
+        case solids::ParamKind::choice: {
+            std::size_t chosen = 0;
+            if (!call.choice(slot, param.choices, chosen)) return false;
+            out = chosen;
+            return true;
+        }
     }
     return false;
 }

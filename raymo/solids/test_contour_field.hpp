@@ -6,10 +6,9 @@
 
 #include "raymo/curves/region.hpp"
 #include "raymo/curves/roots.hpp"
+#include "raymo/solids/test_quad.hpp"
 
 namespace raymo::solids::conformance {
-
-using Quad = __float128;
 
 inline Quad quad_value(const std::array<double, 4>& c, Quad u) {
     const Quad v = 1 - u;

@@ -1,0 +1,205 @@
+// Points and a sweep: whether they are in it, and which ball they lie on.
+//
+// A point p is inside by more than g when for some u  |p - r|^2 < (a - g)^2, a > g, and outside by more than g when for all u
+// F(p, u) > 2 a g + g^2. The path is halved until the Bernstein coefficients of F decide for each part, or a part is shorter
+// than g; the cubics are halved, not F, so that near p all numbers are as small as the distances.
+#include <algorithm>
+#include <cmath>
+
+#include "raymo/curves/roots.hpp"
+#include "raymo/math/tolerance.hpp"
+#include "raymo/solids/sweep/sweep.hpp"
+
+namespace raymo::solids {
+namespace {
+
+/// Parts of one piece that are looked at, at most; only a point that is as far from all of a part as its radius needs more,
+/// and is on the boundary as far as anyone can tell.
+constexpr int kMostParts = 2000;
+constexpr int kMostHalvings = 48;
+
+/// At the edge of a flat cap, a point that is nearer to a ball's surface than this is on it.
+constexpr double kCapEdge = 0x1p-40;
+
+Cubics seen_from(Vec3 p, const Cubics& q) {
+    Cubics out = q;
+    for (std::size_t i = 0; i < 4; ++i) {
+        for (int k = 0; k < 3; ++k) out.c[i][static_cast<std::size_t>(k)] -= p[k];
+    }
+    return out;
+}
+
+/// F as a sextic of u.
+std::array<double, 7> field_of(const Cubics& q) {
+    std::array<double, 7> f{};
+    for (std::size_t k = 0; k < 3; ++k) add_square(q, k, 1.0, f);
+    add_square(q, 3, -1.0, f);
+    return f;
+}
+
+double distance(const Cubics& q, std::size_t i) {
+    return std::hypot(q.c[i][0], q.c[i][1], q.c[i][2]);
+}
+
+/// Where the origin is, with respect to the balls of a piece. `slack`: what counts as on.
+Where where_in(const Cubics& whole, double slack) {
+    struct Part {
+        Cubics q;
+        int depth;
+    };
+    std::array<Part, kMostHalvings + 2> open;
+    std::size_t count = 0;
+    open[count++] = {whole, 0};
+    Where found = Where::out;
+    for (int looked = 0; count > 0; ++looked) {
+        const Part at = open[--count];
+        for (const std::size_t i : {std::size_t{0}, std::size_t{3}}) {
+            if (distance(at.q, i) < std::fabs(at.q.c[i][3]) - slack) return Where::in;
+        }
+        const std::array<double, 7> f = field_of(at.q);
+        double size = 0.0;
+        double radius = 0.0;
+        double extent = 0.0;
+        for (std::size_t i = 0; i < 4; ++i) {
+            const double d = distance(at.q, i);
+            radius = std::max(radius, std::fabs(at.q.c[i][3]));
+            size = std::max(size, d * d);
+            for (std::size_t k = 0; k < 4; ++k)
+                extent = std::max(extent, std::fabs(at.q.c[i][k] - at.q.c[0][k]));
+        }
+        const double margin =
+            slack * (2.0 * radius + slack) + 8.0 * kUnitRoundoff * (size + radius * radius);
+        const auto [least, most] = std::minmax_element(f.begin(), f.end());
+        if (*least > margin) continue;
+        if (*most<margin&& * least> - margin) {
+            found = Where::on;
+            continue;
+        }
+        if (extent < 0.125 * slack || at.depth >= kMostHalvings || looked >= kMostParts) {
+            found = Where::on;
+            continue;
+        }
+        split(at.q, 0.5, open[count + 1].q, open[count].q);
+        open[count].depth = open[count + 1].depth = at.depth + 1;
+        count += 2;
+    }
+    return found;
+}
+
+/// Calls visit(piece) for those whose box, grown by `margin`, holds p, until it returns false.
+template <class Visit>
+void pieces_at(const SweptSpheres& spheres, Vec3 p, double margin, const Visit& visit) {
+    struct Todo {
+        std::uint32_t level, node;
+    };
+    std::array<Todo, 8 * 11> open;
+    std::size_t count = 0;
+    open[count++] = {static_cast<std::uint32_t>(spheres.levels.size() - 1), 0};
+    while (count > 0) {
+        const Todo at = open[--count];
+        const SweptNode& node = spheres.levels[at.level][at.node];
+        for (std::uint32_t c = 0; c < SweptNode::kWidth; ++c) {
+            bool holds = true;
+            for (int a = 0; a < 3; ++a) {
+                holds = holds && p[a] >= static_cast<double>(node.lo[a][c]) - margin &&
+                        p[a] <= static_cast<double>(node.hi[a][c]) + margin;
+            }
+            if (!holds) continue;
+            const auto child = at.node * static_cast<std::uint32_t>(SweptNode::kWidth) + c;
+            if (at.level > 0) {
+                open[count++] = {at.level - 1, child};
+            } else if (!visit(spheres.pieces[child])) {
+                return;
+            }
+        }
+    }
+}
+
+/// The ball on whose surface a point is.
+struct Nearest {
+    /// Balls that hold the point deeper are cut off there.
+    double least = -std::numeric_limits<double>::infinity();
+    double distance = std::numeric_limits<double>::infinity();  ///< from its surface
+    Vec3 outward;
+    Vec3 tangent;
+};
+
+void look_nearer(const Cubics& q, double u, Nearest& best) {
+    const CubicsJet j = jet_at(q, u);
+    const Vec3 outward{-j.value[0], -j.value[1], -j.value[2]};
+    const double distance = norm(outward) - std::fabs(j.value[3]);
+    if (!(distance < best.distance && distance >= best.least)) return;
+    best = {best.least, distance, outward, {j.first[0], j.first[1], j.first[2]}};
+}
+
+void find_nearest(const Cubics& piece, Vec3 p, Nearest& best) {
+    const Cubics q = seen_from(p, piece);
+    look_nearer(q, 0.0, best);
+    look_nearer(q, 1.0, best);
+    const std::array<double, 6> slope = curves::derivative(field_of(q));
+    curves::RootList<5> roots;
+    curves::find_roots<5>(slope, 0.0, roots);
+    for (const curves::Root& root : roots) {
+        double u = root.u;
+        look_nearer(q, u, best);
+        // Once more from the cubics themselves, which lose less than the products of their coefficients.
+        const CubicsJet j = jet_at(q, u);
+        double f1 = -j.value[3] * j.first[3];
+        double f2 = -j.first[3] * j.first[3] - j.value[3] * j.second[3];
+        for (std::size_t k = 0; k < 3; ++k) {
+            f1 += j.value[k] * j.first[k];
+            f2 += j.first[k] * j.first[k] + j.value[k] * j.second[k];
+        }
+        if (f2 > 0.0) look_nearer(q, std::clamp(u - f1 / f2, 0.0, 1.0), best);
+    }
+}
+
+}  // namespace
+
+Where Sweep::Kernel::where(Vec3 p, Vec3 e) const {
+    const double slack = norm(e) + 32.0 * kUnitRoundoff * (1.0 + max_norm(p));
+    Where found = Where::out;
+    pieces_at(*spheres_, p, slack, [&](const SweptPiece& piece) {
+        Where most = Where::in;
+        for (std::size_t k = 0; k < 2; ++k) {
+            if ((piece.cut >> k & 1U) == 0) continue;
+            const double height = dot(spheres_->caps[k].n, p) - spheres_->caps[k].c;
+            if (height < -slack) return true;
+            if (height <= slack) most = Where::on;
+        }
+        found = std::max(found, std::min(most, where_in(seen_from(p, piece.cubics), slack)));
+        return found != Where::in;
+    });
+    return found;
+}
+
+Vec3 Sweep::Kernel::normal(Vec3 p, std::uint16_t face) const {
+    const SweptSpheres& spheres = *spheres_;
+    if (spheres.flat && !spheres.closed && face > 0) return -spheres.caps[face - 1U].n;
+    Nearest best;
+    if (face == 1) {
+        look_nearer(seen_from(p, spheres.pieces.front().cubics), 0.0, best);
+    } else if (face == 2) {
+        look_nearer(seen_from(p, spheres.pieces.back().cubics), 1.0, best);
+    } else {
+        pieces_at(spheres, p, kBoxMargin, [&](const SweptPiece& piece) {
+            best.least = -std::numeric_limits<double>::infinity();
+            for (std::size_t k = 0; k < 2; ++k) {
+                if ((piece.cut >> k & 1U) == 0) continue;
+                const double height = dot(spheres.caps[k].n, p) - spheres.caps[k].c;
+                best.least = std::max(best.least, -std::fabs(height) - kCapEdge);
+            }
+            find_nearest(piece.cubics, p, best);
+            return true;
+        });
+        if (std::isinf(best.distance)) {
+            for (const SweptPiece& piece : spheres.pieces) find_nearest(piece.cubics, p, best);
+        }
+    }
+    if (max_norm(best.outward) > 0.0) return best.outward;
+    // A ball of no size: at a tip, away from the path; and anywhere, if need be.
+    if (max_norm(best.tangent) > 0.0) return face == 2 ? best.tangent : -best.tangent;
+    return {0.0, 0.0, 1.0};
+}
+
+}  // namespace raymo::solids

@@ -1,0 +1,73 @@
+// What a sweep is prepared to: its path in the canonical frame, cut into short pieces under a tree of boxes.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "raymo/math/aabb.hpp"
+#include "raymo/solids/sweep/cubics.hpp"
+
+namespace raymo::solids {
+
+/// The half-space n.x >= c that cuts the spheres near a flat end; n has unit length.
+struct CapPlane {
+    Vec3 n;
+    double c = 0.0;
+    friend bool operator==(const CapPlane&, const CapPlane&) = default;
+};
+
+/// A part of the path, and which flat caps cut its spheres: bit 0 the first, bit 1 the last.
+struct SweptSpan {
+    Cubics cubics;
+    std::uint8_t cut = 0;
+    friend bool operator==(const SweptSpan&, const SweptSpan&) = default;
+};
+
+struct SweptPiece {
+    Cubics cubics;
+    std::uint8_t cut = 0;
+    bool begins = false;  ///< the path's round first end is at u = 0
+    bool ends = false;    ///< its round last end is at u = 1
+};
+
+/// Boxes of up to eight neighbours in the order of the path.
+struct SweptNode {
+    static constexpr std::size_t kWidth = 8;
+    float lo[3][kWidth];
+    float hi[3][kWidth];
+};
+
+/// Immutable once built, and shared by the copies of a kernel.
+struct SweptSpheres {
+    std::vector<SweptSpan> spans;
+    bool closed = false;
+    bool flat = false;
+    std::array<CapPlane, 2> caps;  ///< of flat ends
+
+    // What follows from the above.
+    std::vector<SweptPiece> pieces;
+    /// levels[0][k] has the boxes of pieces 8 k ... 8 k + 7, levels[l][k] those of the nodes 8 k ... of level l - 1; the
+    /// last level is one node.
+    std::vector<std::vector<SweptNode>> levels;
+
+    /// Cuts the spans into pieces and builds the tree.
+    void finish();
+    /// The same solid: what is built from the same spans is the same.
+    [[nodiscard]] bool equals(const SweptSpheres& other) const {
+        return spans == other.spans && closed == other.closed && flat == other.flat &&
+               caps == other.caps;
+    }
+};
+
+/// By so much the boxes of the tree are larger than what they hold: the rounding of floats, in the products of the slab
+/// test too, of numbers below 4.
+inline constexpr double kBoxMargin = 0x1p-18;
+
+/// Box of the spheres under x -> row.x for each of three rows; those of a flat end are cut off, to within the difference
+/// between a cut and its convex hull.
+[[nodiscard]] Aabb box_of(const Cubics& cubics);
+/// Largest n.r(u) + |n| a(u).
+[[nodiscard]] double reach(const Cubics& cubics, Vec3 n, double length);
+
+}  // namespace raymo::solids
