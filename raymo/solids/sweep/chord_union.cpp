@@ -81,6 +81,15 @@ bool ChordUnion::covers(double lo, double hi) const {
     return false;
 }
 
+bool ChordUnion::covers_side(const Chord& chord, double sign, double reach) const {
+    for (std::size_t i = 0; i < certain_.size(); ++i) {
+        const Chord& c = certain_[i];
+        if (chord.lo.inner > c.hi.inner || c.lo.inner > chord.hi.inner) continue;
+        if (sign * (sign > 0.0 ? c.hi.inner : c.lo.inner) >= reach) return true;
+    }
+    return false;
+}
+
 void ChordUnion::finish(double unit, double limit, SpanList& out) {
     const auto before = [](const Chord& a, const Chord& b) { return a.lo.t < b.lo.t; };
     Beside beside(limit);

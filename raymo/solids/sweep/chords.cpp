@@ -8,17 +8,20 @@
 // cusps or self-crossings, and the unions of all pieces are united in turn [Wijk84b], [Wijk86 4].
 //
 // The thesis' candidates for the extrema are the roots of a polynomial of degree 4n - 2, disc'^2 - 4 tau'^2 disc for cubics
-// n = 3. The same extrema are found here without forming it. With D1 = disc', D2 = disc'',
-//     t+-' = tau' +- D1 / (2 h),   t+-'' = tau'' -+ (D1^2 - 2 disc D2) / (4 h^3).
-// [0, 1] is halved until over each part, with bounds from Bernstein coefficients (m1 <= |D1|, d2 >= D2, disc <= H^2,
-// |tau''| <= c2, ...), one of these holds.
-//   empty     All coefficients of disc are below -E (see below).
-//   known     tau - H' .. tau + H', which holds all chords, lies where the line is inside for certain.
-//   concave   B = (m1^2 - 2 H^2 d2) / (4 H^3) - c2 > 0. (The fraction falls with h, so B bounds it.) Then {disc >= 0} is one
-//             interval, t+ is concave over it with t+'' <= -B, and t- convex: each has one extremum.
-//   monotone  disc > 0, tau' has one sign, and 2 |tau'| h > |D1|: both extrema stand at the ends of the part.
-//   nested    D1 has one sign and |D1| > 2 |tau'| H: each sphere's chord holds the next, so the last one's counts.
-//   flat      disc > 0, or the chords at both ends overlap, and these come as near to the bounds as they are known.
+// n = 3. The same extrema are found here without forming it. Let z = +-tau + h, of which the largest value is sought for
+// either sign, D1 = disc', D2 = disc''. Then
+//     z' = +-tau' + D1 / (2 h),   z'' = +-tau'' - (D1^2 - 2 disc D2) / (4 h^3).
+// [0, 1] is halved until over each part, with bounds from Bernstein coefficients (m1 <= |D1| <= M1, m2 <= D2 <= M2,
+// l^2 <= disc <= H^2, c2 >= +-tau''), these hold. First, the part has one chord, or none:
+//     disc > 0, or D2 < 0, or D1 has one sign.
+// Second, for either sign one of
+//   concave   B = (m1^2 - 2 H^2 M2) / (4 H^3) - c2 > 0. Then z'' <= -B (the fraction falls with h): there is one maximum.
+//   monotone  disc > 0, tau' has one sign, and 2 |tau'| l > M1: the maximum is at an end of the part.
+//   convex    disc > 0, and +-tau'' >= (M1^2 + 2 H^2 |m2|) / (4 l^3): so it is.
+//   nested    D1 has one sign and |D1| > 2 |tau'| H: each sphere's chord holds the next, so that of the last counts.
+//   flat      The larger of both ends comes as near to +-tau + H as it is known.
+//   covered   All values lie where the line is inside for certain, in one interval with the chord of an end.
+// Parts are dropped when all coefficients of disc are below -E (see below), or when all their chords lie inside for certain.
 // The extremum of a concave part is found by steps to the extremum of a model with linear tau and quadratic disc, which is
 // where a line meets a cylinder or cone,
 //     u + D1 / 2c + m sqrt((disc + D1^2 / 4c) / (c (c + m^2))),  m = +-tau',  c = -(D2 +- 2 tau'' h) / 2,
@@ -98,13 +101,23 @@ struct Bounds {
     double disc_least, disc_most;
     double d1_least, d1_most;  ///< of |D1|; the least is 0 where it has no sign
     bool d1_rises;
-    double d2_most;  ///< of D2, with its sign
+    double d2_least, d2_most;  ///< of D2
     double tau_least, tau_most;
     double tau1_least, tau1_most;  ///< of |tau'|
-    double tau2_most;              ///< of |tau''|
+    double tau2_least, tau2_most;  ///< of tau''
     double radius_most;
     double slack;     ///< E
     double rounding;  ///< of coefficients of disc
+
+    /// Where disc is larger than this, it is positive for certain, with room.
+    [[nodiscard]] double certain() const { return 4.0 * (slack + rounding); }
+};
+
+/// The chords of a part's first and last sphere, where the line meets these for certain.
+struct Ends {
+    Chord first, last;
+    bool has_first, has_last;
+    double wide;  ///< H
 };
 
 class Search {
@@ -176,65 +189,124 @@ private:
         b.d1_rises = *d1_low > 0.0;
         b.d1_least = 6.0 * scale * std::max({*d1_low, -*d1_high, 0.0});
         b.d1_most = 6.0 * scale * std::max(*d1_high, -*d1_low);
-        b.d2_most = d1[1] - d1[0];
-        for (std::size_t i = 1; i < 5; ++i) b.d2_most = std::max(b.d2_most, d1[i + 1] - d1[i]);
+        b.d2_least = b.d2_most = d1[1] - d1[0];
+        for (std::size_t i = 1; i < 5; ++i) {
+            b.d2_most = std::max(b.d2_most, d1[i + 1] - d1[i]);
+            b.d2_least = std::min(b.d2_least, d1[i + 1] - d1[i]);
+        }
         b.d2_most = 30.0 * scale * scale * (b.d2_most + 4.0 * b.rounding);
+        b.d2_least = 30.0 * scale * scale * (b.d2_least - 4.0 * b.rounding);
         const double t0 = q.c[1][kTau] - q.c[0][kTau];
         const double t1 = q.c[2][kTau] - q.c[1][kTau];
         const double t2 = q.c[3][kTau] - q.c[2][kTau];
         const auto [t_low, t_high] = std::minmax({t0, t1, t2});
         b.tau1_least = 3.0 * scale * std::max({t_low, -t_high, 0.0});
         b.tau1_most = 3.0 * scale * std::max(t_high, -t_low);
-        b.tau2_most = 6.0 * scale * scale * std::max(std::fabs(t1 - t0), std::fabs(t2 - t1));
+        b.tau2_most = 6.0 * scale * scale * std::max(t1 - t0, t2 - t1);
+        b.tau2_least = 6.0 * scale * scale * std::min(t1 - t0, t2 - t1);
         return true;
+    }
+
+    enum class Rule { none, concave, at_first, at_last, larger };
+
+    /// How the largest sign tau + h over the part is found; `bend`: B.
+    [[nodiscard]] Rule rule(const Bounds& b, double sign, const Ends& ends, double& bend) const {
+        const double h2 = std::max(b.disc_most, b.slack);
+        const double h = std::sqrt(h2);
+        const double turn_most = sign > 0.0 ? b.tau2_most : -b.tau2_least;
+        bend = (b.d1_least * b.d1_least - 2.0 * h2 * b.d2_most) / (4.0 * h2 * h) - turn_most;
+        if (bend > 0.125 * std::fabs(turn_most)) return Rule::concave;
+        if (b.d1_least > 2.0 * b.tau1_most * h && (b.d1_rises ? ends.has_last : ends.has_first))
+            return b.d1_rises ? Rule::at_last : Rule::at_first;
+        if (!ends.has_first && !ends.has_last) return Rule::none;
+        const double reach = sign > 0.0 ? b.tau_most + ends.wide : ends.wide - b.tau_least;
+        if (found_.covers_side(ends.has_first ? ends.first : ends.last, sign, reach))
+            return ends.has_first ? Rule::at_first : Rule::at_last;
+        if (!ends.has_first || !ends.has_last) return Rule::none;
+        if (b.disc_least > b.certain()) {
+            const double l = std::sqrt(b.disc_least);
+            if (2.0 * b.tau1_least * l > b.d1_most) return Rule::larger;
+            const double turn_least = sign > 0.0 ? b.tau2_least : -b.tau2_most;
+            if (turn_least * 4.0 * l * l * l >
+                b.d1_most * b.d1_most - 2.0 * h2 * std::min(b.d2_least, 0.0))
+                return Rule::larger;
+        }
+        const ChordEnd& first = sign > 0.0 ? ends.first.hi : ends.first.lo;
+        const ChordEnd& last = sign > 0.0 ? ends.last.hi : ends.last.lo;
+        const double near =
+            2.0 * (std::fabs(first.outer - first.inner) + std::fabs(last.outer - last.inner));
+        return reach - std::max(sign * first.t, sign * last.t) <= near ? Rule::larger : Rule::none;
     }
 
     /// True when the part is done with.
     bool settle(const Part& part, const Bounds& b) {
-        const double wide = std::sqrt(std::max(b.disc_most, 0.0) + b.slack + b.rounding);
-        if (found_.covers(b.tau_least - wide, b.tau_most + wide)) return true;
-        const double h2 = std::max(b.disc_most, b.slack);
-        const double h = std::sqrt(h2);
-        const double bend =
-            (b.d1_least * b.d1_least - 2.0 * h2 * b.d2_most) / (4.0 * h2 * h) - b.tau2_most;
-        if (bend > 0.125 * b.tau2_most) {
-            add_concave(part, b, bend);
-            return true;
-        }
-        const double certain = 4.0 * (b.slack + b.rounding);
-        const Place first = place_at(whole_, part.u0);
-        const Place last = place_at(whole_, part.u1);
-        Chord at_first, at_last;
-        const bool has_first = chord_at(first, at_first);
-        const bool has_last = chord_at(last, at_last);
-        if (b.disc_least > certain && has_first && has_last &&
-            2.0 * b.tau1_least * std::sqrt(b.disc_least) > b.d1_most) {
-            add(hull(at_first, at_last));
-            return true;
-        }
-        if (b.d1_least > 2.0 * b.tau1_most * h && (b.d1_rises ? has_last : has_first)) {
-            add(b.d1_rises ? at_last : at_first);
-            return true;
-        }
-        if (has_first && has_last && (b.disc_least > certain || overlap(at_first, at_last))) {
-            Chord both = hull(at_first, at_last);
-            const double near = 2.0 * (std::fabs(both.lo.inner - both.lo.outer) +
-                                       std::fabs(both.hi.inner - both.hi.outer));
-            if (both.lo.outer - (b.tau_least - wide) <= near &&
-                b.tau_most + wide - both.hi.outer <= near) {
-                both.lo.outer = b.tau_least - wide;
-                both.hi.outer = b.tau_most + wide;
-                add(both);
+        Ends ends;
+        ends.wide = std::sqrt(std::max(b.disc_most, 0.0) + b.slack + b.rounding);
+        if (found_.covers(b.tau_least - ends.wide, b.tau_most + ends.wide)) return true;
+        if (b.disc_least > b.certain() || b.d2_most < 0.0 || b.d1_least > 0.0) {
+            find_ends(part, ends);
+            double bend_lo, bend_hi;
+            const Rule lo = rule(b, -1.0, ends, bend_lo);
+            const Rule hi = lo == Rule::none ? lo : rule(b, 1.0, ends, bend_hi);
+            if (hi != Rule::none) {
+                join(part, b, ends, lo, bend_lo, hi, bend_hi);
                 return true;
             }
         }
         // In the surface over all its length, or in it to within less than where that is known.
-        if (b.disc_most < certain &&
-            (b.disc_least > -certain || b.tau_most - b.tau_least < 0.25 * kDegenerate)) {
-            add_maybe(b.tau_least - wide, b.tau_most + wide);
+        if (b.disc_most < b.certain() &&
+            (b.disc_least > -b.certain() || b.tau_most - b.tau_least < 0.25 * kDegenerate)) {
+            add_maybe(b.tau_least - ends.wide, b.tau_most + ends.wide);
             return true;
         }
         return false;
+    }
+
+    void find_ends(const Part& part, Ends& ends) const {
+        const auto place = [&](std::size_t i, double u) {
+            const auto& c = part.q.c[i];
+            Place at{};
+            at.u = u;
+            at.tau = c[kTau];
+            at.radius = std::fabs(c[kRadius]);
+            at.disc = at.radius * at.radius - c[kP] * c[kP] - c[kQ] * c[kQ];
+            return at;
+        };
+        ends.has_first = chord_at(place(0, part.u0), ends.first);
+        ends.has_last = chord_at(place(3, part.u1), ends.last);
+    }
+
+    /// Adds the one chord of a part.
+    void join(const Part& part, const Bounds& b, const Ends& ends, Rule lo, double bend_lo, Rule hi,
+              double bend_hi) {
+        Chord chord;
+        if (lo == Rule::concave || hi == Rule::concave) {
+            Place peak;
+            if (!find_peak(part, b, peak)) return;
+            if (lo == Rule::concave) chord.lo = extremum(part, bend_lo, peak, -1.0);
+            if (hi == Rule::concave) chord.hi = extremum(part, bend_hi, peak, 1.0);
+        }
+        if (lo != Rule::concave) chord.lo = end_of(ends, lo, -1.0, b);
+        if (hi != Rule::concave) chord.hi = end_of(ends, hi, 1.0, b);
+        add(chord);
+    }
+
+    static ChordEnd end_of(const Ends& ends, Rule rule, double sign, const Bounds& b) {
+        const ChordEnd& first = sign > 0.0 ? ends.first.hi : ends.first.lo;
+        const ChordEnd& last = sign > 0.0 ? ends.last.hi : ends.last.lo;
+        if (rule == Rule::at_first) return first;
+        if (rule == Rule::at_last) return last;
+        const bool later = sign * last.t > sign * first.t;
+        ChordEnd out = later ? last : first;
+        const ChordEnd& other = later ? first : last;
+        // Of a flat part the bounds may be farther out.
+        const double reach = sign > 0.0 ? b.tau_most + ends.wide : ends.wide - b.tau_least;
+        const double outer = std::max(sign * out.outer, sign * other.outer);
+        const double near =
+            2.0 * (std::fabs(first.outer - first.inner) + std::fabs(last.outer - last.inner));
+        out.outer = sign * (reach - sign * out.t <= near ? std::max(reach, outer) : outer);
+        out.inner = sign * std::max(sign * out.inner, sign * other.inner);
+        return out;
     }
 
     void give_up(const Part& part, const Bounds& b) {
@@ -287,22 +359,23 @@ private:
         return out;
     }
 
-    void add_concave(const Part& part, const Bounds& b, double bend) {
-        // The largest disc, or nearly.
-        Place peak{};
-        double most;
+    /// The place of the largest disc, or nearly. False when the line may miss the part, of which has been told.
+    bool find_peak(const Part& part, const Bounds& b, Place& peak) {
+        double most = 0.0;
         double off = 0.0;  // how far the largest may be from there
         const double width = part.u1 - part.u0;
         if (b.d1_least > 0.0) {
             peak = place_at(whole_, b.d1_rises ? part.u1 : part.u0);
+            most = peak.disc;
+        } else if (!(b.d2_most < 0.0)) {
+            peak = place_at(whole_, 0.5 * (part.u0 + part.u1));  // disc > 0 everywhere
             most = peak.disc;
         } else {
             double u = 0.5 * (part.u0 + part.u1);
             for (int i = 0;; ++i) {
                 peak = place_at(whole_, u);
                 most = peak.disc;
-                const double end = peak.disc1 > 0.0 ? part.u1 : part.u0;
-                if (u == end) break;
+                if (u == (peak.disc1 > 0.0 ? part.u1 : part.u0)) break;
                 const double gain = peak.disc1 * peak.disc1 / (2.0 * std::fabs(b.d2_most));
                 off = std::min(width, std::fabs(peak.disc1 / b.d2_most));
                 most = peak.disc + gain;
@@ -310,25 +383,19 @@ private:
                 u = std::clamp(u - peak.disc1 / std::min(peak.disc2, b.d2_most), part.u0, part.u1);
             }
         }
-        if (most <= -b.slack) return;
-        if (!(peak.disc >= 4.0 * b.slack)) {
-            const double room = std::max(most, 0.0) + b.slack;
-            const double reach = b.d1_least > 0.0
-                                     ? std::min(width, room / b.d1_least)
-                                     : std::min(width, std::sqrt(2.0 * room / -b.d2_most));
-            const double wide = b.tau1_most * (reach + off) + std::sqrt(room);
-            add_maybe(peak.tau - wide, peak.tau + wide);
-            return;
-        }
-        Chord chord;
-        chord.lo = extremum(part, b, bend, peak, -1.0);
-        chord.hi = extremum(part, b, bend, peak, 1.0);
-        add(chord);
+        if (most <= -b.slack) return false;
+        if (peak.disc >= 4.0 * b.slack) return true;
+        const double room = std::max(most, 0.0) + b.slack;
+        const double reach = b.d1_least > 0.0
+                                 ? std::min(width, room / b.d1_least)
+                                 : std::min(width, std::sqrt(2.0 * room / std::fabs(b.d2_most)));
+        const double wide = b.tau1_most * (reach + off) + std::sqrt(room);
+        add_maybe(peak.tau - wide, peak.tau + wide);
+        return false;
     }
 
     /// The largest sign tau + h over the part; concave there.
-    ChordEnd extremum(const Part& part, const Bounds& b, double bend, const Place& peak,
-                      double sign) const {
+    ChordEnd extremum(const Part& part, double bend, const Place& peak, double sign) const {
         double lo = part.u0;
         double hi = part.u1;
         bool lo_seen = false;
@@ -375,7 +442,6 @@ private:
         // The highest sphere does for certain, too.
         const double top = std::sqrt(peak.disc);
         const double inner = std::max(t - e / h, sign * peak.tau + top - slack(peak.radius) / top);
-        (void)b;
         return {sign * t, sign * outer, sign * inner, face_at(good.u)};
     }
 

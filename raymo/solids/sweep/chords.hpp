@@ -78,6 +78,8 @@ public:
     void add(Chord chord);
     /// Whether all of [lo, hi] is known to be inside.
     [[nodiscard]] bool covers(double lo, double hi) const;
+    /// Whether what is inside for certain, in one interval with `chord`, reaches as far as sign t = reach.
+    [[nodiscard]] bool covers_side(const Chord& chord, double sign, double reach) const;
     /// The spans, and what is told beside them. `unit`: lengths in one s; `limit`: the largest error that is not degenerate.
     void finish(double unit, double limit, SpanList& out);
 
