@@ -8,21 +8,21 @@
 // cusps or self-crossings, and the unions of all pieces are united in turn [Wijk84b], [Wijk86 4].
 //
 // The thesis' candidates for the extrema are the roots of a polynomial of degree 4n - 2, disc'^2 - 4 tau'^2 disc for cubics
-// n = 3. The same extrema are found here without forming it. Let z = +-tau + h, of which the largest value is sought for
+// n = 3. They are needed here only where simpler bounds do not tell. Let z = +-tau + h, of which the largest value is sought for
 // either sign, D1 = disc', D2 = disc''. Then
 //     z' = +-tau' + D1 / (2 h),   z'' = +-tau'' - (D1^2 - 2 disc D2) / (4 h^3).
-// [0, 1] is halved until over each part, with bounds from Bernstein coefficients (m1 <= |D1| <= M1, m2 <= D2 <= M2,
-// l^2 <= disc <= H^2, c2 >= +-tau''), these hold. First, the part has one chord, or none:
+// [0, 1] is halved until over each part, with bounds from Bernstein coefficients (m1 <= |D1|, D2 <= d2, disc <= H^2,
+// +-tau'' <= c2), these hold. First, the part has one chord, or none:
 //     disc > 0, or D2 < 0, or D1 has one sign.
 // Second, for either sign one of
-//   concave   B = (m1^2 - 2 H^2 M2) / (4 H^3) - c2 > 0. Then z'' <= -B (the fraction falls with h): there is one maximum.
-//   monotone  disc > 0, tau' has one sign, and 2 |tau'| l > M1: the maximum is at an end of the part.
-//   convex    disc > 0, and +-tau'' >= (M1^2 + 2 H^2 |m2|) / (4 l^3): so it is.
-//   nested    D1 has one sign and |D1| > 2 |tau'| H: each sphere's chord holds the next, so that of the last counts.
-//   flat      The larger of both ends comes as near to +-tau + H as it is known.
+//   concave   B = (m1^2 - 2 H^2 d2) / (4 H^3) - c2 > 0. Then z'' <= -B (the fraction falls with h): there is one maximum.
+//   single    disc > 0 or D1 has one sign, and the thesis' polynomial has at most one root, by the signs of its coefficients.
+//             Then z' at the ends tells whether there is a maximum between them.
 //   covered   All values lie where the line is inside for certain, in one interval with the chord of an end.
+//   flat      The larger of both ends comes as near to +-tau + H as it is known.
 // Parts are dropped when all coefficients of disc are below -E (see below), or when all their chords lie inside for certain.
-// The extremum of a concave part is found by steps to the extremum of a model with linear tau and quadratic disc, which is
+// Nearly all parts of transversal lines are concave, at once or after a halving or two; the polynomial is formed for few.
+// The maximum is found by steps to the extremum of a model with linear tau and quadratic disc, which is
 // where a line meets a cylinder or cone,
 //     u + D1 / 2c + m sqrt((disc + D1^2 / 4c) / (c (c + m^2))),  m = +-tau',  c = -(D2 +- 2 tau'' h) / 2,
 // exact for linear pieces with one step; that c makes it Newton's near the extremum. Since t+ is concave, it is above the
@@ -42,11 +42,10 @@
 #include <cmath>
 
 #include "raymo/math/tolerance.hpp"
+#include "raymo/solids/sweep/part.hpp"
 
 namespace raymo::solids {
 namespace {
-
-constexpr std::size_t kTau = 0, kP = 1, kQ = 2, kRadius = 3;
 
 /// Parts are halved so often at most; there they are shorter than places along the line are known.
 constexpr int kMostHalvings = 40;
@@ -67,58 +66,20 @@ Cubics seen_along(const SweepLine& line, const Cubics& q) {
     return out;
 }
 
-/// What is known of the sphere at one u.
-struct Place {
-    double u;
-    double tau, tau1, tau2;
-    double disc, disc1, disc2;
-    double radius;
-};
-
-Place place_at(const Cubics& q, double u) {
-    const CubicsJet j = jet_at(q, u);
-    const auto sum = [](const std::array<double, 4>& a, const std::array<double, 4>& b) {
-        return a[kRadius] * b[kRadius] - a[kP] * b[kP] - a[kQ] * b[kQ];
-    };
-    return {u,
-            j.value[kTau],
-            j.first[kTau],
-            j.second[kTau],
-            sum(j.value, j.value),
-            2.0 * sum(j.value, j.first),
-            2.0 * (sum(j.first, j.first) + sum(j.value, j.second)),
-            std::fabs(j.value[kRadius])};
-}
-
-struct Part {
-    Cubics q;
-    double u0, u1;
-    int depth;
-};
-
-/// Bounds over a part, with derivatives by u.
-struct Bounds {
-    double disc_least, disc_most;
-    double d1_least, d1_most;  ///< of |D1|; the least is 0 where it has no sign
-    bool d1_rises;
-    double d2_least, d2_most;  ///< of D2
-    double tau_least, tau_most;
-    double tau1_least, tau1_most;  ///< of |tau'|
-    double tau2_least, tau2_most;  ///< of tau''
-    double radius_most;
-    double slack;     ///< E
-    double rounding;  ///< of coefficients of disc
-
-    /// Where disc is larger than this, it is positive for certain, with room.
-    [[nodiscard]] double certain() const { return 4.0 * (slack + rounding); }
-};
+/// How the largest sign tau + h over a part is found.
+enum class Rule { none, concave, single, first, last, larger, flat };
 
 /// The chords of a part's first and last sphere, where the line meets these for certain.
 struct Ends {
+    SpherePlace at_first, at_last;
     Chord first, last;
     bool has_first, has_last;
-    double wide;  ///< H
 };
+
+/// Half the derivative of sign tau + h.
+double slope_at(const SpherePlace& at, double sign) {
+    return sign * at.tau1 + at.disc1 / (2.0 * std::sqrt(at.disc));
+}
 
 class Search {
 public:
@@ -131,16 +92,16 @@ public:
         whole_ = seen_along(line_, piece_.cubics);
         open_[count++] = {whole_, 0.0, 1.0, 0};
         for (int looked = 0; count > 0; ++looked) {
-            const Part part = open_[--count];
-            Bounds b;
-            if (!bounds(part, b)) continue;
+            const SweepPart part = open_[--count];
+            PartBounds b;
+            if (!bound_part(part, line_.error, b)) continue;
             if (settle(part, b)) continue;
             if (part.depth >= kMostHalvings || looked >= kMostParts) {
                 give_up(part, b);
                 continue;
             }
-            Part& right = open_[count];
-            Part& left = open_[count + 1];
+            SweepPart& right = open_[count];
+            SweepPart& left = open_[count + 1];
             const double middle = 0.5 * (part.u0 + part.u1);
             split(part.q, 0.5, left.q, right.q);
             left.u0 = part.u0;
@@ -154,175 +115,111 @@ public:
     }
 
 private:
-    [[nodiscard]] double slack(double radius) const {
-        return line_.error * (2.0 * radius + line_.error);
-    }
+    [[nodiscard]] double slack(double radius) const { return slack_of(radius, line_.error); }
 
-    /// False: the line misses the part.
-    bool bounds(const Part& part, Bounds& b) const {
-        const Cubics& q = part.q;
-        std::array<double, 7> disc{};
-        add_square(q, kRadius, 1.0, disc);
-        add_square(q, kP, -1.0, disc);
-        add_square(q, kQ, -1.0, disc);
-        double size = 0.0;
-        b.radius_most = 0.0;
-        for (std::size_t i = 0; i < 4; ++i) {
-            size = std::max(size, q.c[i][kP] * q.c[i][kP] + q.c[i][kQ] * q.c[i][kQ]);
-            b.radius_most = std::max(b.radius_most, std::fabs(q.c[i][kRadius]));
-        }
-        size += b.radius_most * b.radius_most;
-        b.rounding = 8.0 * kUnitRoundoff * size;
-        b.slack = slack(b.radius_most);
-        b.disc_most = *std::max_element(disc.begin(), disc.end());
-        if (!(b.disc_most > -(b.slack + b.rounding))) return false;
-        b.disc_least = *std::min_element(disc.begin(), disc.end());
-
-        const auto [tau_least, tau_most] =
-            std::minmax({q.c[0][kTau], q.c[1][kTau], q.c[2][kTau], q.c[3][kTau]});
-        b.tau_least = tau_least;
-        b.tau_most = tau_most;
-        const double scale = 1.0 / (part.u1 - part.u0);
-        std::array<double, 6> d1;
-        for (std::size_t i = 0; i < 6; ++i) d1[i] = disc[i + 1] - disc[i];
-        const auto [d1_low, d1_high] = std::minmax_element(d1.begin(), d1.end());
-        b.d1_rises = *d1_low > 0.0;
-        b.d1_least = 6.0 * scale * std::max({*d1_low, -*d1_high, 0.0});
-        b.d1_most = 6.0 * scale * std::max(*d1_high, -*d1_low);
-        b.d2_least = b.d2_most = d1[1] - d1[0];
-        for (std::size_t i = 1; i < 5; ++i) {
-            b.d2_most = std::max(b.d2_most, d1[i + 1] - d1[i]);
-            b.d2_least = std::min(b.d2_least, d1[i + 1] - d1[i]);
-        }
-        b.d2_most = 30.0 * scale * scale * (b.d2_most + 4.0 * b.rounding);
-        b.d2_least = 30.0 * scale * scale * (b.d2_least - 4.0 * b.rounding);
-        const double t0 = q.c[1][kTau] - q.c[0][kTau];
-        const double t1 = q.c[2][kTau] - q.c[1][kTau];
-        const double t2 = q.c[3][kTau] - q.c[2][kTau];
-        const auto [t_low, t_high] = std::minmax({t0, t1, t2});
-        b.tau1_least = 3.0 * scale * std::max({t_low, -t_high, 0.0});
-        b.tau1_most = 3.0 * scale * std::max(t_high, -t_low);
-        b.tau2_most = 6.0 * scale * scale * std::max(t1 - t0, t2 - t1);
-        b.tau2_least = 6.0 * scale * scale * std::min(t1 - t0, t2 - t1);
-        return true;
-    }
-
-    enum class Rule { none, concave, at_first, at_last, larger };
-
-    /// How the largest sign tau + h over the part is found; `bend`: B.
-    [[nodiscard]] Rule rule(const Bounds& b, double sign, const Ends& ends, double& bend) const {
+    /// B
+    static double bend_of(const PartBounds& b, double sign) {
         const double h2 = std::max(b.disc_most, b.slack);
-        const double h = std::sqrt(h2);
-        const double turn_most = sign > 0.0 ? b.tau2_most : -b.tau2_least;
-        bend = (b.d1_least * b.d1_least - 2.0 * h2 * b.d2_most) / (4.0 * h2 * h) - turn_most;
-        if (bend > 0.125 * std::fabs(turn_most)) return Rule::concave;
-        if (b.d1_least > 2.0 * b.tau1_most * h && (b.d1_rises ? ends.has_last : ends.has_first))
-            return b.d1_rises ? Rule::at_last : Rule::at_first;
-        if (!ends.has_first && !ends.has_last) return Rule::none;
-        const double reach = sign > 0.0 ? b.tau_most + ends.wide : ends.wide - b.tau_least;
-        if (found_.covers_side(ends.has_first ? ends.first : ends.last, sign, reach))
-            return ends.has_first ? Rule::at_first : Rule::at_last;
-        if (!ends.has_first || !ends.has_last) return Rule::none;
-        if (b.disc_least > b.certain()) {
-            const double l = std::sqrt(b.disc_least);
-            if (2.0 * b.tau1_least * l > b.d1_most) return Rule::larger;
-            const double turn_least = sign > 0.0 ? b.tau2_least : -b.tau2_most;
-            if (turn_least * 4.0 * l * l * l >
-                b.d1_most * b.d1_most - 2.0 * h2 * std::min(b.d2_least, 0.0))
-                return Rule::larger;
+        const double turn = sign > 0.0 ? b.tau2_most : -b.tau2_least;
+        const double bend =
+            (b.d1_least * b.d1_least - 2.0 * h2 * b.d2_most) / (4.0 * h2 * std::sqrt(h2)) - turn;
+        return bend > 0.125 * std::fabs(turn) ? bend : 0.0;
+    }
+
+    [[nodiscard]] Rule rule(const PartBounds& b, double sign, const Ends& ends, bool single) const {
+        if (single) {
+            const bool rises_first = !ends.has_first || slope_at(ends.at_first, sign) > 0.0;
+            const bool falls_last = !ends.has_last || slope_at(ends.at_last, sign) < 0.0;
+            if (rises_first && falls_last) return Rule::single;
+            if (!ends.has_first) return Rule::last;
+            return ends.has_last ? Rule::larger : Rule::first;
         }
-        const ChordEnd& first = sign > 0.0 ? ends.first.hi : ends.first.lo;
-        const ChordEnd& last = sign > 0.0 ? ends.last.hi : ends.last.lo;
+        const double reach = sign > 0.0 ? b.tau_most + b.wide : b.wide - b.tau_least;
+        if (found_.covers_side(ends.has_first ? ends.first : ends.last, sign, reach))
+            return ends.has_first ? Rule::first : Rule::last;
+        if (!ends.has_first || !ends.has_last) return Rule::none;
+        const ChordEnd first = end_of(ends, Rule::first, sign);
+        const ChordEnd last = end_of(ends, Rule::last, sign);
         const double near =
             2.0 * (std::fabs(first.outer - first.inner) + std::fabs(last.outer - last.inner));
-        return reach - std::max(sign * first.t, sign * last.t) <= near ? Rule::larger : Rule::none;
+        return reach - std::max(sign * first.t, sign * last.t) <= near ? Rule::flat : Rule::none;
     }
 
     /// True when the part is done with.
-    bool settle(const Part& part, const Bounds& b) {
-        Ends ends;
-        ends.wide = std::sqrt(std::max(b.disc_most, 0.0) + b.slack + b.rounding);
-        if (found_.covers(b.tau_least - ends.wide, b.tau_most + ends.wide)) return true;
-        if (b.disc_least > b.certain() || b.d2_most < 0.0 || b.d1_least > 0.0) {
-            find_ends(part, ends);
-            double bend_lo, bend_hi;
-            const Rule lo = rule(b, -1.0, ends, bend_lo);
-            const Rule hi = lo == Rule::none ? lo : rule(b, 1.0, ends, bend_hi);
-            if (hi != Rule::none) {
-                join(part, b, ends, lo, bend_lo, hi, bend_hi);
-                return true;
-            }
-        }
+    bool settle(const SweepPart& part, const PartBounds& b) {
+        if (found_.covers(b.tau_least - b.wide, b.tau_most + b.wide)) return true;
+        const bool positive = b.disc_least > b.certain();
+        if ((positive || b.d2_most < 0.0 || b.d1_least > 0.0) && join(part, b, positive))
+            return true;
         // In the surface over all its length, or in it to within less than where that is known.
         if (b.disc_most < b.certain() &&
             (b.disc_least > -b.certain() || b.tau_most - b.tau_least < 0.25 * kDegenerate)) {
-            add_maybe(b.tau_least - ends.wide, b.tau_most + ends.wide);
+            add_maybe(b.tau_least - b.wide, b.tau_most + b.wide);
             return true;
         }
         return false;
     }
 
-    void find_ends(const Part& part, Ends& ends) const {
-        const auto place = [&](std::size_t i, double u) {
-            const auto& c = part.q.c[i];
-            Place at{};
-            at.u = u;
-            at.tau = c[kTau];
-            at.radius = std::fabs(c[kRadius]);
-            at.disc = at.radius * at.radius - c[kP] * c[kP] - c[kQ] * c[kQ];
-            return at;
-        };
-        ends.has_first = chord_at(place(0, part.u0), ends.first);
-        ends.has_last = chord_at(place(3, part.u1), ends.last);
-    }
-
-    /// Adds the one chord of a part.
-    void join(const Part& part, const Bounds& b, const Ends& ends, Rule lo, double bend_lo, Rule hi,
-              double bend_hi) {
-        Chord chord;
-        if (lo == Rule::concave || hi == Rule::concave) {
-            Place peak;
-            if (!find_peak(part, b, peak)) return;
-            if (lo == Rule::concave) chord.lo = extremum(part, bend_lo, peak, -1.0);
-            if (hi == Rule::concave) chord.hi = extremum(part, bend_hi, peak, 1.0);
+    /// Adds the one chord of a part, if both of its ends can be found.
+    bool join(const SweepPart& part, const PartBounds& b, bool positive) {
+        const std::array<double, 2> bend{bend_of(b, -1.0), bend_of(b, 1.0)};
+        std::array<Rule, 2> rules{Rule::concave, Rule::concave};
+        Ends ends;
+        if (!(bend[0] > 0.0 && bend[1] > 0.0)) {
+            ends.at_first = place_at(whole_, part.u0);
+            ends.at_last = place_at(whole_, part.u1);
+            ends.has_first = chord_at(ends.at_first, ends.first);
+            ends.has_last = chord_at(ends.at_last, ends.last);
+            if (!ends.has_first && !ends.has_last) return false;
+            const bool single = (positive ? ends.has_first && ends.has_last : b.d1_least > 0.0) &&
+                                at_most_one_stationary(part, b);
+            for (std::size_t k = 0; k < 2; ++k) {
+                if (!(bend[k] > 0.0)) rules[k] = rule(b, k == 0 ? -1.0 : 1.0, ends, single);
+                if (rules[k] == Rule::none) return false;
+            }
         }
-        if (lo != Rule::concave) chord.lo = end_of(ends, lo, -1.0, b);
-        if (hi != Rule::concave) chord.hi = end_of(ends, hi, 1.0, b);
+        SpherePlace peak{};
+        const auto searches = [](Rule r) { return r == Rule::concave || r == Rule::single; };
+        if ((searches(rules[0]) || searches(rules[1])) && !find_peak(part, b, peak)) return true;
+        Chord chord;
+        for (std::size_t k = 0; k < 2; ++k) {
+            const double sign = k == 0 ? -1.0 : 1.0;
+            ChordEnd& end = k == 0 ? chord.lo : chord.hi;
+            end = searches(rules[k]) ? extremum(part, bend[k], peak, sign)
+                                     : end_of(ends, rules[k], sign);
+            if (rules[k] == Rule::flat) {
+                const double reach = sign > 0.0 ? b.tau_most + b.wide : b.wide - b.tau_least;
+                end.outer = sign * std::max(sign * end.outer, reach);
+            }
+        }
         add(chord);
+        return true;
     }
 
-    static ChordEnd end_of(const Ends& ends, Rule rule, double sign, const Bounds& b) {
+    static ChordEnd end_of(const Ends& ends, Rule rule, double sign) {
         const ChordEnd& first = sign > 0.0 ? ends.first.hi : ends.first.lo;
         const ChordEnd& last = sign > 0.0 ? ends.last.hi : ends.last.lo;
-        if (rule == Rule::at_first) return first;
-        if (rule == Rule::at_last) return last;
-        const bool later = sign * last.t > sign * first.t;
-        ChordEnd out = later ? last : first;
-        const ChordEnd& other = later ? first : last;
-        // Of a flat part the bounds may be farther out.
-        const double reach = sign > 0.0 ? b.tau_most + ends.wide : ends.wide - b.tau_least;
-        const double outer = std::max(sign * out.outer, sign * other.outer);
-        const double near =
-            2.0 * (std::fabs(first.outer - first.inner) + std::fabs(last.outer - last.inner));
-        out.outer = sign * (reach - sign * out.t <= near ? std::max(reach, outer) : outer);
-        out.inner = sign * std::max(sign * out.inner, sign * other.inner);
+        if (rule == Rule::first) return first;
+        if (rule == Rule::last) return last;
+        ChordEnd out = sign * last.t > sign * first.t ? last : first;
+        out.outer = sign * std::max(sign * first.outer, sign * last.outer);
+        out.inner = sign * std::max(sign * first.inner, sign * last.inner);
         return out;
     }
 
-    void give_up(const Part& part, const Bounds& b) {
-        const double wide = std::sqrt(std::max(b.disc_most, 0.0) + b.slack + b.rounding);
+    void give_up(const SweepPart& part, const PartBounds& b) {
         Chord first, last;
         const bool has_first = chord_at(place_at(whole_, part.u0), first);
         const bool has_last = chord_at(place_at(whole_, part.u1), last);
         if (!has_first && !has_last) {
-            add_maybe(b.tau_least - wide, b.tau_most + wide);
+            add_maybe(b.tau_least - b.wide, b.tau_most + b.wide);
             return;
         }
         Chord chord = has_first ? first : last;
         // What both ends hold need not be joined.
         if (has_first && has_last && overlap(first, last)) chord = hull(first, last);
-        chord.lo.outer = b.tau_least - wide;
-        chord.hi.outer = b.tau_most + wide;
+        chord.lo.outer = b.tau_least - b.wide;
+        chord.hi.outer = b.tau_most + b.wide;
         add(chord);
     }
 
@@ -333,7 +230,7 @@ private:
     }
 
     /// The chord of one sphere; false when the line does not meet it for certain.
-    bool chord_at(const Place& at, Chord& out) const {
+    bool chord_at(const SpherePlace& at, Chord& out) const {
         const double e = slack(at.radius);
         if (!(at.disc > 2.0 * e)) return false;
         const double h = std::sqrt(at.disc);
@@ -360,7 +257,7 @@ private:
     }
 
     /// The place of the largest disc, or nearly. False when the line may miss the part, of which has been told.
-    bool find_peak(const Part& part, const Bounds& b, Place& peak) {
+    bool find_peak(const SweepPart& part, const PartBounds& b, SpherePlace& peak) {
         double most = 0.0;
         double off = 0.0;  // how far the largest may be from there
         const double width = part.u1 - part.u0;
@@ -394,16 +291,17 @@ private:
         return false;
     }
 
-    /// The largest sign tau + h over the part; concave there.
-    ChordEnd extremum(const Part& part, double bend, const Place& peak, double sign) const {
+    /// The largest sign tau + h over the part, where it has one maximum; `bend`: B, or 0 if there is none.
+    ChordEnd extremum(const SweepPart& part, double bend, const SpherePlace& peak,
+                      double sign) const {
         double lo = part.u0;
         double hi = part.u1;
         bool lo_seen = false;
         bool hi_seen = false;
-        Place at = peak;
-        Place good = peak;
+        SpherePlace at = peak;
+        SpherePlace good = peak;
         double loss = 0.0;
-        for (int i = 0; i < 16; ++i) {
+        for (int i = 0; i < 64; ++i) {
             if (i > 0 && at.disc <= 0.0) {
                 // Beyond the chords: back half the way.
                 (at.u > good.u ? hi : lo) = at.u;
@@ -417,7 +315,9 @@ private:
             const double slope = m + at.disc1 / (2.0 * h);
             loss = 0.0;
             if ((at.u == part.u1 && slope >= 0.0) || (at.u == part.u0 && slope <= 0.0)) break;
-            loss = slope * slope / (2.0 * bend);
+            const double z2 = sign * at.tau2 + (2.0 * at.disc * at.disc2 - at.disc1 * at.disc1) /
+                                                   (4.0 * at.disc * h);
+            loss = slope * slope / (bend > 0.0 ? 2.0 * bend : std::max(-z2, 0.0));
             if (loss * h <= 0x1p-12 * slack(at.radius)) break;
             (slope > 0.0 ? lo : hi) = at.u;
             (slope > 0.0 ? lo_seen : hi_seen) = true;
@@ -481,7 +381,7 @@ private:
     const SweptPiece& piece_;
     ChordUnion& found_;
     Cubics whole_;
-    std::array<Part, kMostHalvings + 2> open_;
+    std::array<SweepPart, kMostHalvings + 2> open_;
 };
 
 }  // namespace
