@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <limits>
 #include <numbers>
 #include <unordered_map>
 
@@ -47,6 +48,19 @@ std::vector<solids::Argument> arguments(const Model& m) {
     if (m.primitive == "prism") return {m.outline, n[0], m.centred};
     if (m.primitive == "conic") return {m.outline, n[0], n[1], m.centred};
     if (m.primitive == "revolve") return {m.outline, n[0]};
+    if (m.primitive == "sweep") {
+        auto path = std::make_shared<curves::Path>();
+        path->spans.resize(n.size() / 16);
+        for (std::size_t i = 0; i < n.size(); i += 4) {
+            curves::PathSpan& span = path->spans[i / 16];
+            const std::size_t k = i / 4 % 4;
+            span.x[k] = n[i];
+            span.y[k] = n[i + 1];
+            span.z[k] = n[i + 2];
+            span.r[k] = n[i + 3];
+        }
+        return {curves::PathPtr(std::move(path)), std::size_t{0}};
+    }
     solids::Matrix4 matrix{};
     for (std::size_t i = 0; i < 16; ++i) matrix[i] = n[i];
     return {matrix};
@@ -84,6 +98,42 @@ csg::Solid build(const Model& m, Built& built) {
     return solid;
 }
 
+/// Distance from the nearest ball's surface, negative inside: the least over many samples, each refined.
+Real sweep_distance(const std::vector<double>& n, const RealPoint& p) {
+    constexpr int kSamples = 64;
+    Real least = std::numeric_limits<Real>::infinity();
+    for (std::size_t first = 0; first < n.size(); first += 16) {
+        const auto distance = [&](Real u) {
+            const Real v = 1 - u;
+            const Real w[4] = {v * v * v, 3 * v * v * u, 3 * v * u * u, u * u * u};
+            Real c[4] = {};
+            for (std::size_t i = 0; i < 16; ++i)
+                c[i % 4] += w[i / 4] * static_cast<Real>(n[first + i]);
+            const Real x = c[0] - p.x, y = c[1] - p.y, z = c[2] - p.z;
+            return std::sqrt(x * x + y * y + z * z) - c[3];
+        };
+        Real f[kSamples + 1];
+        for (int i = 0; i <= kSamples; ++i) f[i] = distance(static_cast<Real>(i) / kSamples);
+        for (int i = 0; i <= kSamples; ++i) {
+            least = std::min(least, f[i]);
+            if ((i > 0 && f[i] > f[i - 1]) || (i < kSamples && f[i] > f[i + 1])) continue;
+            Real lo = std::max(static_cast<Real>(i - 1) / kSamples, Real(0));
+            Real hi = std::min(static_cast<Real>(i + 1) / kSamples, Real(1));
+            for (int k = 0; k < 40; ++k) {
+                const Real a = lo + (hi - lo) * 0.38196601125010515L;
+                const Real b = lo + (hi - lo) * 0.61803398874989485L;
+                if (distance(a) < distance(b)) {
+                    hi = b;
+                } else {
+                    lo = a;
+                }
+            }
+            least = std::min(least, distance((lo + hi) / 2));
+        }
+    }
+    return least;
+}
+
 /// A number that is negative inside and positive outside, and in size at most the distance from the boundary.
 Real signed_distance(const Model& m, const RealPoint& p) {
     const auto n = [&](std::size_t i) { return static_cast<Real>(m.numbers[i]); };
@@ -103,6 +153,7 @@ Real signed_distance(const Model& m, const RealPoint& p) {
         return std::max(side, slab(p.z, n(2)));
     }
     if (m.primitive == "torus") return std::hypot(q - n(0), p.z) - n(1);
+    if (m.primitive == "sweep") return sweep_distance(m.numbers, p);
     return (n(0) * p.x + n(1) * p.y + n(2) * p.z - n(3)) / std::hypot(std::hypot(n(0), n(1)), n(2));
 }
 
@@ -206,6 +257,7 @@ ModelPtr conic(curves::OutlinePtr outline, double h, double top) {
 ModelPtr revolve(curves::OutlinePtr outline, double angle) {
     return swept("revolve", std::move(outline), {angle});
 }
+ModelPtr sweep(std::vector<double> control) { return leaf("sweep", std::move(control)); }
 ModelPtr moved(ModelPtr child, const Affine& map) {
     auto model = std::make_shared<Model>();
     model->is_moved = true;

@@ -53,6 +53,8 @@ struct Model {
 [[nodiscard]] ModelPtr prism(curves::OutlinePtr outline, double h, bool centred = false);
 [[nodiscard]] ModelPtr conic(curves::OutlinePtr outline, double h, double top);
 [[nodiscard]] ModelPtr revolve(curves::OutlinePtr outline, double angle);
+/// Balls along cubics: x, y, z and radius of four control points for each span.
+[[nodiscard]] ModelPtr sweep(std::vector<double> control);
 [[nodiscard]] ModelPtr moved(ModelPtr child, const Affine& map);
 [[nodiscard]] ModelPtr moved(ModelPtr child, Vec3 by);
 [[nodiscard]] ModelPtr join(ModelPtr a, ModelPtr b);

@@ -21,6 +21,37 @@ void add_kernel_law(std::vector<Law>& laws) {
                     }});
 }
 
+/// One span or two with a smooth joint; sometimes straight, of one radius, thin, or with points that coincide.
+ModelPtr any_sweep(Random& random) {
+    const double radius = std::ldexp(random.uniform(0.5, 1), -random.below(5));
+    const bool even = random.chance(0.4);
+    const auto control = [&](Vec3 p, double r) { return std::array<double, 4>{p.x, p.y, p.z, r}; };
+    std::vector<std::array<double, 4>> points;
+    const int spans = 1 + random.below(2);
+    for (int i = 0; i < 4; ++i)
+        points.push_back(control(random.in_cube(4), even ? radius : radius * random.uniform(0, 2)));
+    if (random.chance(0.2)) points[1] = points[0];
+    if (random.chance(0.2)) points[2] = points[1];
+    if (random.chance(0.2)) {
+        for (std::size_t k = 0; k < 4; ++k) {
+            points[1][k] = (2 * points[0][k] + points[3][k]) / 3;
+            points[2][k] = (points[0][k] + 2 * points[3][k]) / 3;
+        }
+    }
+    if (spans == 2) {
+        std::array<double, 4> next{};
+        for (std::size_t k = 0; k < 4; ++k) next[k] = 2 * points[3][k] - points[2][k];
+        if (next[3] < 0) next[3] = 0;
+        points.push_back(points[3]);
+        points.push_back(next);
+        points.push_back(control(random.in_cube(4), radius));
+        points.push_back(control(random.in_cube(4), radius));
+    }
+    std::vector<double> numbers;
+    for (const auto& p : points) numbers.insert(numbers.end(), p.begin(), p.end());
+    return sweep(std::move(numbers));
+}
+
 ModelPtr solid(const std::string& name, Random& random) {
     const double r = random.uniform(0.5, 5), h = random.uniform(0.5, 5);
     if (name == "block") return block({r, h, random.uniform(0.5, 5)}, random.chance(0.5));
@@ -39,6 +70,7 @@ ModelPtr solid(const std::string& name, Random& random) {
         return revolve(random_outline(random, true),
                        random.chance(0.5) ? 360.0 : random.uniform(1, 359));
     }
+    if (name == "sweep") return any_sweep(random);
     solids::Matrix4 m{};
     for (std::size_t i = 0; i < 4; ++i) {
         for (std::size_t j = 0; j <= i; ++j) {
