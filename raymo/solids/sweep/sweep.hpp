@@ -33,6 +33,7 @@ struct Sweep {
         [[nodiscard]] Where where(Vec3 p, Vec3 e) const;
         [[nodiscard]] std::span<const std::string_view> faces() const;
         [[nodiscard]] const SweptSpheres& spheres() const { return *spheres_; }
+        [[nodiscard]] double bytes() const { return spheres_->bytes(); }
         friend bool operator==(const Kernel& a, const Kernel& b) {
             return a.spheres_ == b.spheres_ || a.spheres_->equals(*b.spheres_);
         }

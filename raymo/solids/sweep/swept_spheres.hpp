@@ -53,6 +53,13 @@ struct SweptSpheres {
 
     /// Cuts the spans into pieces and builds the tree.
     void finish();
+    /// Memory it takes.
+    [[nodiscard]] double bytes() const {
+        std::size_t bytes = sizeof(SweptSpheres) + spans.capacity() * sizeof(SweptSpan) +
+                            pieces.capacity() * sizeof(SweptPiece);
+        for (const auto& level : levels) bytes += level.capacity() * sizeof(SweptNode);
+        return static_cast<double>(bytes);
+    }
     /// The same solid: what is built from the same spans is the same.
     [[nodiscard]] bool equals(const SweptSpheres& other) const {
         return spans == other.spans && closed == other.closed && flat == other.flat &&
