@@ -7,34 +7,35 @@
 // from the least t- to the largest t+ (the interval theorem): nothing needs to be known about envelopes, engulfed spheres,
 // cusps or self-crossings, and the unions of all pieces are united in turn [Wijk84b], [Wijk86 4].
 //
-// The thesis' candidates for the extrema are the roots of a polynomial of degree 4n - 2, disc'^2 - 4 tau'^2 disc for cubics
-// n = 3. They are needed here only where simpler bounds do not tell. Let z = +-tau + h, of which the largest value is sought for
-// either sign, D1 = disc', D2 = disc''. Then
+// The usual candidates for the extrema are the roots of disc'^2 - 4 tau'^2 disc, of degree 10 for cubics. It is needed here
+// only where simpler bounds do not tell. Let z = +-tau + h, of which the largest value is sought for either sign,
+// D1 = disc', D2 = disc''. Then
 //     z' = +-tau' + D1 / (2 h),   z'' = +-tau'' - (D1^2 - 2 disc D2) / (4 h^3).
 // [0, 1] is halved until over each part, with bounds from Bernstein coefficients (m1 <= |D1|, D2 <= d2, disc <= H^2,
 // +-tau'' <= c2), these hold. First, the part has one chord, or none:
 //     disc > 0, or D2 < 0, or D1 has one sign.
 // Second, for either sign one of
 //   concave   B = (m1^2 - 2 H^2 d2) / (4 H^3) - c2 > 0. Then z'' <= -B (the fraction falls with h): there is one maximum.
-//   single    disc > 0 or D1 has one sign, and the thesis' polynomial has at most one root, by the signs of its coefficients.
+//   single    disc > 0 or D1 has one sign, and that polynomial has at most one root, by the signs of its coefficients.
 //             Then z' at the ends tells whether there is a maximum between them.
 //   covered   All values lie where the line is inside for certain, in one interval with the chord of an end.
 //   flat      The larger of both ends comes as near to +-tau + H as it is known.
 // Parts are dropped when all coefficients of disc are below -E (see below), or when all their chords lie inside for certain.
 // Nearly all parts of transversal lines are concave, at once or after a halving or two; the polynomial is formed for few.
-// The maximum is found by steps to the extremum of a model with linear tau and quadratic disc, which is
-// where a line meets a cylinder or cone,
+// The maximum is found by steps to that of a model with linear tau and quadratic disc, a line that meets a cylinder or cone,
 //     u + D1 / 2c + m sqrt((disc + D1^2 / 4c) / (c (c + m^2))),  m = +-tau',  c = -(D2 +- 2 tau'' h) / 2,
-// exact for linear pieces with one step; that c makes it Newton's near the extremum. Since t+ is concave, it is above the
-// value at any u by at most t+'^2 / 2B, the `loss`; steps are made until it is far below the error, and it is added to that.
+// exact for linear pieces with one step; that c makes it Newton's near the maximum. Since z is concave, its maximum is above
+// the value at any u by at most z'^2 / 2B, the `loss` (z'^2 / |z''|, twice what Newton's step gains, where there is no B);
+// steps are made until it is far below the error, and it is added to that.
 //
 // Error. A place of the line, a centre and a radius together are wrong by at most e. So a sphere of the true solid meets the
 // true line only if disc >= -E, E = e (2 a + e), and does if disc >= E. With T(x) the maximum of tau + sqrt(disc + x),
 //     dT/dx = 1 / 2h  at the extremum belonging to x,
 //     dh^2/dx = (-D2 -+ 2 tau'' h) / (2 tau'^2 - D2 -+ 2 tau'' h), in (0, 1] (or 1, where the extremum is at an end).
-// So h grows with x, and T(E) <= T(0) + E / 2h. And where the largest disc is at least 4 E, for linear tau and quadratic disc
-// h^2 stays above 3/4 of its value, and T(-E) >= T(0) - 1.16 E / 2h; E / h is taken. A part of which the largest disc is
-// less may be entered or not: a `maybe`, which has bounds only.
+// So h grows with x, and T(E) <= T(0) + E / 2h. (Where there is no B, T may bend upwards; that counts where T'' is about
+// 1 / (2 h E), next to where the maximum is flat, and E is taken a quarter larger for it.) And where the largest disc is at
+// least 4 E, for linear tau and quadratic disc h^2 stays above 3/4 of its value, and T(-E) >= T(0) - 1.16 E / 2h; E / h is
+// taken. A part of which the largest disc is less may be entered or not: a `maybe`, which has bounds only.
 // Coefficients of disc are wrong by another 8 u of the squares they are made of.
 #include "raymo/solids/sweep/chords.hpp"
 
@@ -76,7 +77,7 @@ struct Ends {
     bool has_first, has_last;
 };
 
-/// Half the derivative of sign tau + h.
+/// The derivative of sign tau + h.
 double slope_at(const SpherePlace& at, double sign) {
     return sign * at.tau1 + at.disc1 / (2.0 * std::sqrt(at.disc));
 }

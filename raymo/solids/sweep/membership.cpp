@@ -18,6 +18,9 @@ namespace {
 constexpr int kMostParts = 2000;
 constexpr int kMostHalvings = 48;
 
+/// Rounding of F, in the canonical frame.
+constexpr double kTiny = 64.0 * kUnitRoundoff;
+
 /// At the edge of a flat cap, a point that is nearer to a ball's surface than this is on it.
 constexpr double kCapEdge = 0x1p-40;
 
@@ -38,7 +41,7 @@ std::array<double, 7> field_of(const Cubics& q) {
 }
 
 double distance(const Cubics& q, std::size_t i) {
-    return std::hypot(q.c[i][0], q.c[i][1], q.c[i][2]);
+    return std::sqrt(q.c[i][0] * q.c[i][0] + q.c[i][1] * q.c[i][1] + q.c[i][2] * q.c[i][2]);
 }
 
 /// Where the origin is, with respect to the balls of a piece. `slack`: what counts as on.
@@ -127,7 +130,7 @@ struct Nearest {
 void look_nearer(const Cubics& q, double u, Nearest& best) {
     const CubicsJet j = jet_at(q, u);
     const Vec3 outward{-j.value[0], -j.value[1], -j.value[2]};
-    const double distance = norm(outward) - std::fabs(j.value[3]);
+    const double distance = std::sqrt(dot(outward, outward)) - std::fabs(j.value[3]);
     if (!(distance < best.distance && distance >= best.least)) return;
     best = {best.least, distance, outward, {j.first[0], j.first[1], j.first[2]}};
 }
@@ -136,7 +139,14 @@ void find_nearest(const Cubics& piece, Vec3 p, Nearest& best) {
     const Cubics q = seen_from(p, piece);
     look_nearer(q, 0.0, best);
     look_nearer(q, 1.0, best);
-    const std::array<double, 6> slope = curves::derivative(field_of(q));
+    const std::array<double, 7> field = field_of(q);
+    // |p - r| - a >= F / (2 a + |p - r| - a): where that is no less than what is known already, nothing is nearer.
+    double radius = 0.0;
+    for (std::size_t i = 0; i < 4; ++i) radius = std::max(radius, std::fabs(q.c[i][3]));
+    const double known = std::max(best.distance, 0.0);
+    if (*std::min_element(field.begin(), field.end()) > known * (2.0 * radius + known) + kTiny)
+        return;
+    const std::array<double, 6> slope = curves::derivative(field);
     curves::RootList<5> roots;
     curves::find_roots<5>(slope, 0.0, roots);
     for (const curves::Root& root : roots) {

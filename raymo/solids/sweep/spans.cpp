@@ -1,5 +1,6 @@
 // A line through the tree of a sweep.
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "raymo/math/tolerance.hpp"
@@ -25,35 +26,40 @@ public:
             const auto o = static_cast<float>(line.o[a]);
             // 1e-15 moves no place by more than the margin.
             inverse_[i] = 1.0F / std::copysign(std::max(std::fabs(d), 1e-15F), d);
-            from_low_[i] = o + margin;
-            from_high_[i] = o - margin;
+            from_first_[i] = o + std::copysign(margin, d);
+            from_last_[i] = o - std::copysign(margin, d);
         }
     }
     /// Bit c: child c may be met.
     [[nodiscard]] unsigned met(const SweptNode& node) const {
         constexpr std::size_t kWidth = SweptNode::kWidth;
-        std::array<float, kWidth> near;
-        std::array<float, kWidth> far;
-        near.fill(-std::numeric_limits<float>::max());
-        far.fill(std::numeric_limits<float>::max());
+        // Boxes without content have their ends the wrong way round, and so have their slabs.
+        float near[3][kWidth];
+        float far[3][kWidth];
         for (std::size_t a = 0; a < 3; ++a) {
+            const float* first = inverse_[a] > 0.0F ? node.lo[a] : node.hi[a];
+            const float* last = inverse_[a] > 0.0F ? node.hi[a] : node.lo[a];
             for (std::size_t c = 0; c < kWidth; ++c) {
-                const float low = (node.lo[a][c] - from_low_[a]) * inverse_[a];
-                const float high = (node.hi[a][c] - from_high_[a]) * inverse_[a];
-                near[c] = std::max(near[c], std::min(low, high));
-                far[c] = std::min(far[c], std::max(low, high));
+                near[a][c] = (first[c] - from_first_[a]) * inverse_[a];
+                far[a][c] = (last[c] - from_last_[a]) * inverse_[a];
             }
         }
-        unsigned bits = 0;
+        std::uint32_t missed[kWidth];
         for (std::size_t c = 0; c < kWidth; ++c) {
-            // Boxes without content have their ends the wrong way round.
-            bits |= (near[c] <= far[c] && node.lo[0][c] <= node.hi[0][c] ? 1U : 0U) << c;
+            const float begin = near[0][c] > near[1][c] ? near[0][c] : near[1][c];
+            const float end = far[0][c] < far[1][c] ? far[0][c] : far[1][c];
+            const float enter = begin > near[2][c] ? begin : near[2][c];
+            const float exit = end < far[2][c] ? end : far[2][c];
+            missed[c] = std::bit_cast<std::uint32_t>(exit - enter) >> 31;
         }
+        unsigned bits = 0;
+        for (std::size_t c = 0; c < kWidth; ++c) bits |= (1U - missed[c]) << c;
         return bits;
     }
 
 private:
-    std::array<float, 3> inverse_, from_low_, from_high_;
+    /// The line's place, moved by the margin against the line for the planes that are met first, and on for the last.
+    std::array<float, 3> inverse_, from_first_, from_last_;
 };
 
 }  // namespace

@@ -32,6 +32,7 @@ struct Sweep {
         [[nodiscard]] Vec3 normal(Vec3 p, std::uint16_t face) const;
         [[nodiscard]] Where where(Vec3 p, Vec3 e) const;
         [[nodiscard]] std::span<const std::string_view> faces() const;
+        [[nodiscard]] double bytes() const { return spheres_->bytes(); }
         [[nodiscard]] const SweptSpheres& spheres() const { return *spheres_; }
         [[nodiscard]] double bytes() const { return spheres_->bytes(); }
         friend bool operator==(const Kernel& a, const Kernel& b) {

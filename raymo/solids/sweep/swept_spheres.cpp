@@ -105,6 +105,13 @@ Aabb box_of(const Cubics& cubics) {
     return box;
 }
 
+double SweptSpheres::bytes() const {
+    std::size_t nodes = 0;
+    for (const auto& level : levels) nodes += level.capacity();
+    return static_cast<double>(sizeof(SweptSpheres) + spans.capacity() * sizeof(SweptSpan) +
+                               pieces.capacity() * sizeof(SweptPiece) + nodes * sizeof(SweptNode));
+}
+
 void SweptSpheres::finish() {
     pieces.clear();
     levels.clear();

@@ -54,12 +54,7 @@ struct SweptSpheres {
     /// Cuts the spans into pieces and builds the tree.
     void finish();
     /// Memory it takes.
-    [[nodiscard]] double bytes() const {
-        std::size_t bytes = sizeof(SweptSpheres) + spans.capacity() * sizeof(SweptSpan) +
-                            pieces.capacity() * sizeof(SweptPiece);
-        for (const auto& level : levels) bytes += level.capacity() * sizeof(SweptNode);
-        return static_cast<double>(bytes);
-    }
+    [[nodiscard]] double bytes() const;
     /// The same solid: what is built from the same spans is the same.
     [[nodiscard]] bool equals(const SweptSpheres& other) const {
         return spans == other.spans && closed == other.closed && flat == other.flat &&
@@ -71,8 +66,7 @@ struct SweptSpheres {
 /// test too, of numbers below 4.
 inline constexpr double kBoxMargin = 0x1p-18;
 
-/// Box of the spheres under x -> row.x for each of three rows; those of a flat end are cut off, to within the difference
-/// between a cut and its convex hull.
+/// Box of the spheres; flat caps are not looked at.
 [[nodiscard]] Aabb box_of(const Cubics& cubics);
 /// Largest n.r(u) + |n| a(u).
 [[nodiscard]] double reach(const Cubics& cubics, Vec3 n, double length);
