@@ -5,6 +5,7 @@
 //     the largest  (n + y m).r + |n + y m| a - y c,
 // and the least of these, a convex function of y, is how far the part of their convex hull reaches that is not cut off.
 #include <cmath>
+#include <limits>
 
 #include "raymo/solids/sweep/sweep.hpp"
 

@@ -1,9 +1,11 @@
 // Where a line is inside swept spheres, piece by piece; derivation in chords.cpp.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "raymo/solids/span.hpp"

@@ -5,6 +5,7 @@
 // than g; the cubics are halved, not F, so that near p all numbers are as small as the distances.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "raymo/curves/roots.hpp"
 #include "raymo/math/tolerance.hpp"

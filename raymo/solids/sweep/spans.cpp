@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <limits>
 
 #include "raymo/math/tolerance.hpp"
 #include "raymo/solids/sweep/chords.hpp"

@@ -16,6 +16,7 @@
 #pragma once
 
 #include <memory>
+#include <utility>
 
 #include "raymo/solids/primitive.hpp"
 #include "raymo/solids/sweep/swept_spheres.hpp"
