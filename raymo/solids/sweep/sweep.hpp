@@ -33,8 +33,8 @@ struct Sweep {
         [[nodiscard]] Vec3 normal(Vec3 p, std::uint16_t face) const;
         [[nodiscard]] Where where(Vec3 p, Vec3 e) const;
         [[nodiscard]] std::span<const std::string_view> faces() const;
-        [[nodiscard]] double bytes() const { return spheres_->bytes(); }
         [[nodiscard]] const SweptSpheres& spheres() const { return *spheres_; }
+        /// Memory that all copies share.
         [[nodiscard]] double bytes() const { return spheres_->bytes(); }
         friend bool operator==(const Kernel& a, const Kernel& b) {
             return a.spheres_ == b.spheres_ || a.spheres_->equals(*b.spheres_);
