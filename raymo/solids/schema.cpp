@@ -54,8 +54,8 @@ Result<void> check(const Schema& schema, std::span<const Argument> arguments) {
     RAYMO_ASSERT(arguments.size() == schema.params.size());
     for (std::size_t i = 0; i < arguments.size(); ++i) {
         const Param& param = schema.params[i];
-        if (const std::size_t* choice = std::get_if<std::size_t>(&arguments[i]))
-            RAYMO_ASSERT(*choice < param.choices.size());
+        [[maybe_unused]] const auto* choice = std::get_if<std::size_t>(&arguments[i]);
+        RAYMO_ASSERT(choice == nullptr || *choice < param.choices.size());
         std::span<const double> numbers;
         std::array<double, 3> components{};
         if (const double* number = std::get_if<double>(&arguments[i])) {
