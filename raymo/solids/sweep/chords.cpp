@@ -15,9 +15,10 @@
 // +-tau'' <= c2), these hold. First, the part has one chord, or none:
 //     disc > 0, or D2 < 0, or D1 has one sign.
 // Second, for either sign one of
-//   concave   B = (m1^2 - 2 H^2 d2) / (4 H^3) - c2 > 0. Then z'' <= -B (the fraction falls with h): there is one maximum.
+//   concave   B = (m1^2 - 2 H^2 d2) / (4 H^3) - c2 > 0. Then z'' <= -B: there is one maximum. (The fraction falls with h
+//             up to h^2 = 3 m1^2 / 2 d2 if d2 > 0, where it is least; that takes the place of a larger H^2.)
 //   single    disc > 0 or D1 has one sign, and that polynomial has at most one root, by the signs of its coefficients.
-//             Then z' at the ends tells whether there is a maximum between them.
+//             Then z' at the ends tells whether there is a maximum between them, unless it may be 0 there.
 //   covered   All values lie where the line is inside for certain, in one interval with the chord of an end.
 //   flat      The larger of both ends comes as near to +-tau + H as it is known.
 // Parts are dropped when all coefficients of disc are below -E (see below), or when all their chords lie inside for certain.
@@ -82,6 +83,11 @@ double slope_at(const SpherePlace& at, double sign) {
     return sign * at.tau1 + at.disc1 / (2.0 * std::sqrt(at.disc));
 }
 
+/// What that may be wrong by: the coefficients of tau, and of disc, are sums of products of numbers below 4.
+double slope_noise(const SpherePlace& at) {
+    return 256.0 * kUnitRoundoff * (1.0 + 1.0 / std::sqrt(at.disc));
+}
+
 class Search {
 public:
     Search(const SweepLine& line, const SweptSpheres& spheres, const SweptPiece& piece,
@@ -120,17 +126,27 @@ private:
 
     /// B
     static double bend_of(const PartBounds& b, double sign) {
-        const double h2 = std::max(b.disc_most, b.slack);
+        // The fraction falls with h as far as h^2 = 3 D1^2 / 2 D2, and on for ever if D2 <= 0.
+        const double m2 = b.d1_least * b.d1_least;
+        double h2 = std::max(b.disc_most, b.slack);
+        if (b.d2_most > 0.0) h2 = std::min(h2, 1.5 * m2 / b.d2_most);
+        if (!(h2 > 0.0)) return 0.0;
         const double turn = sign > 0.0 ? b.tau2_most : -b.tau2_least;
-        const double bend =
-            (b.d1_least * b.d1_least - 2.0 * h2 * b.d2_most) / (4.0 * h2 * std::sqrt(h2)) - turn;
+        const double bend = (m2 - 2.0 * h2 * b.d2_most) / (4.0 * h2 * std::sqrt(h2)) - turn;
         return bend > 0.125 * std::fabs(turn) ? bend : 0.0;
     }
 
     [[nodiscard]] Rule rule(const PartBounds& b, double sign, const Ends& ends, bool single) const {
         if (single) {
-            const bool rises_first = !ends.has_first || slope_at(ends.at_first, sign) > 0.0;
-            const bool falls_last = !ends.has_last || slope_at(ends.at_last, sign) < 0.0;
+            const double first = ends.has_first ? slope_at(ends.at_first, sign) : 1.0;
+            const double last = ends.has_last ? slope_at(ends.at_last, sign) : -1.0;
+            // Where a path stands still all slopes are 0, of a least as of a largest value.
+            if ((ends.has_first && std::fabs(first) <= slope_noise(ends.at_first)) ||
+                (ends.has_last && std::fabs(last) <= slope_noise(ends.at_last))) {
+                return Rule::none;
+            }
+            const bool rises_first = first > 0.0;
+            const bool falls_last = last < 0.0;
             if (rises_first && falls_last) return Rule::single;
             if (!ends.has_first) return Rule::last;
             return ends.has_last ? Rule::larger : Rule::first;
