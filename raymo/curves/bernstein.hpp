@@ -35,6 +35,20 @@ template <std::size_t M>
     return b[0];
 }
 
+/// A cubic and its derivative at one place.
+struct Jet {
+    double value, slope;
+};
+[[nodiscard]] constexpr Jet jet_at(const std::array<double, 4>& c, double u) {
+    const double v = 1.0 - u;
+    const double a = v * c[0] + u * c[1];
+    const double b = v * c[1] + u * c[2];
+    const double d = v * c[2] + u * c[3];
+    const double first = v * a + u * b;
+    const double second = v * b + u * d;
+    return {v * first + u * second, 3.0 * (second - first)};
+}
+
 /// p'.
 template <std::size_t M>
 [[nodiscard]] constexpr std::array<double, M - 1> derivative(const std::array<double, M>& c) {
@@ -44,18 +58,28 @@ template <std::size_t M>
     return d;
 }
 
+/// What p[i] q[j] counts for in the coefficient i + j of the product of polynomials of degrees M and K.
+template <int M, int K>
+[[nodiscard]] constexpr auto product_weights() {
+    std::array<std::array<double, static_cast<std::size_t>(K) + 1>, static_cast<std::size_t>(M) + 1>
+        weights{};
+    for (int i = 0; i <= M; ++i) {
+        for (int j = 0; j <= K; ++j) {
+            weights[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)] =
+                binomial(M, i) * binomial(K, j) / binomial(M + K, i + j);
+        }
+    }
+    return weights;
+}
+
 /// p q.
 template <std::size_t M, std::size_t K>
 [[nodiscard]] constexpr std::array<double, M + K - 1> product(const std::array<double, M>& p,
                                                               const std::array<double, K>& q) {
-    constexpr int m = static_cast<int>(M) - 1;
-    constexpr int k = static_cast<int>(K) - 1;
+    constexpr auto kWeights = product_weights<static_cast<int>(M) - 1, static_cast<int>(K) - 1>();
     std::array<double, M + K - 1> out{};
     for (std::size_t i = 0; i < M; ++i) {
-        for (std::size_t j = 0; j < K; ++j) {
-            out[i + j] += binomial(m, static_cast<int>(i)) * binomial(k, static_cast<int>(j)) /
-                          binomial(m + k, static_cast<int>(i + j)) * p[i] * q[j];
-        }
+        for (std::size_t j = 0; j < K; ++j) out[i + j] += kWeights[i][j] * p[i] * q[j];
     }
     return out;
 }

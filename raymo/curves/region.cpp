@@ -76,24 +76,25 @@ Box2 box_of(const Span2& piece) {
 }
 
 Vec2 point_at(const Span2& piece, double u) {
-    const double w = value_at(piece.w, u);
-    return {value_at(piece.x, u) / w, value_at(piece.y, u) / w};
+    const double inverse = 1.0 / jet_at(piece.w, u).value;
+    return {jet_at(piece.x, u).value * inverse, jet_at(piece.y, u).value * inverse};
 }
 
 Vec2 tangent(const Span2& piece, double u) {
+    const Jet x = jet_at(piece.x, u);
+    const Jet y = jet_at(piece.y, u);
+    const Jet w = jet_at(piece.w, u);
+    const Vec2 t{x.slope * w.value - x.value * w.slope, y.slope * w.value - y.value * w.slope};
+    const double across = std::fabs(piece.x[3] / piece.w[3] - piece.x[0] / piece.w[0]);
+    const double up = std::fabs(piece.y[3] / piece.w[3] - piece.y[0] / piece.w[0]);
+    if (max_norm(t) > 0x1p-26 * std::max(across, up) * w.value * w.value) return t;
     // Where the derivative (nearly) vanishes, at a cusp or where control points (nearly) coincide, a chord of the hull shows
     // the direction that the curve has beyond.
-    const double w = value_at(piece.w, u);
-    const double dw = value_at(derivative(piece.w), u);
-    const Vec2 t{value_at(derivative(piece.x), u) * w - value_at(piece.x, u) * dw,
-                 value_at(derivative(piece.y), u) * w - value_at(piece.y, u) * dw};
-    const Box2 box = box_of(piece);
-    const double size = max_norm(box.size()) * w * w;
-    if (max_norm(t) > 0x1p-26 * size) return t;
-    const Vec2 p = point_at(piece, u);
+    const double size = max_norm(box_of(piece).size());
+    const Vec2 p{x.value / w.value, y.value / w.value};
     for (const std::size_t i : {1U, 2U, 3U}) {
         const Vec2 chord = u < 0.5 ? piece.point(i) - p : p - piece.point(3 - i);
-        if (max_norm(chord) > 0x1p-20 * max_norm(box.size())) return chord;
+        if (max_norm(chord) > 0x1p-20 * size) return chord;
     }
     return t;
 }

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "raymo/curves/roots.hpp"
+#include "raymo/math/accurate.hpp"
 #include "raymo/math/lanes.hpp"
 #include "raymo/math/tolerance.hpp"
 #include "raymo/solids/crossings.hpp"
@@ -13,7 +14,6 @@ namespace {
 
 #include "raymo/solids/interval.inl"
 
-using curves::derivative;
 using curves::Piece;
 using curves::Region;
 using curves::Side;
@@ -36,7 +36,7 @@ constexpr int kMostFollowed = 6;
 class SectionLine {
 public:
     SectionLine(const Region& region, Vec3 a, Vec3 b, Vec3 e, Crossings& out)
-        : region_(region), a_(a), b_(b), n_(cross(a, b)), e_(e), out_(out) {
+        : region_(region), a_(a), b_(b), n_(accurate_cross(a, b)), e_(e), out_(out) {
         e_ += Vec3{1.0, 1.0, 1.0} * (16.0 * kUnitRoundoff * std::max(1.0, max_norm(a)));
         most_noise_ = 4.0 * (e_.x + e_.y + e_.z) * max_norm(b);
     }
@@ -64,11 +64,12 @@ private:
         return f;
     }
     [[nodiscard]] static Vec3 point(const Piece& piece, double u) {
-        return {value_at(piece.x, u), value_at(piece.y, u), value_at(piece.w, u)};
+        return {curves::jet_at(piece.x, u).value, curves::jet_at(piece.y, u).value,
+                curves::jet_at(piece.w, u).value};
     }
     [[nodiscard]] static Vec3 derivative_at(const Piece& piece, double u) {
-        return {value_at(derivative(piece.x), u), value_at(derivative(piece.y), u),
-                value_at(derivative(piece.w), u)};
+        return {curves::jet_at(piece.x, u).slope, curves::jet_at(piece.y, u).slope,
+                curves::jet_at(piece.w, u).slope};
     }
     /// Where the ray is next to the line through the tip and P.
     [[nodiscard]] double place(Vec3 p) const {

@@ -19,7 +19,8 @@
 //     ds = a.|T| / |B.T|
 // earlier or later. That holds as long as the contour is straight over the range of u in question, f'^2 >= 8 |f''| a.|B x P|,
 // and does not reach beyond a corner; beyond corners the neighbour's ds counts, too. Otherwise the range is found by
-// following the contour to where |f| exceeds its error.
+// following the contour to where |f| exceeds its error. Rounding counts as part of e; but next to the tip and along a prism,
+// where A and B are nearly parallel, N would lose digits that no e accounts for, so its components are computed exactly.
 // A ray that runs (nearly) through the tip, or along a prism, stays at one point of the section: the contour is asked about
 // that point instead. Ref: [Wijk86 3.2 to 3.4].
 #pragma once

@@ -28,12 +28,18 @@ constexpr double kOffAxis = 1024.0;
 /// How much the slope may change, as a part of itself, over the range in which a crossing may lie.
 constexpr double kSteady = 0.25;
 
+/// How far behind a zero that was found the sign must have changed.
+constexpr double kBeyond = 0x1p-48;
+
 /// Parts shorter than this are not halved again.
 constexpr double kShortest = 0x1p-44;
 
 Bernstein<6> square_sum(const Bernstein<3>& a, const Bernstein<3>& b, const Bernstein<3>& c) {
     return sum_of(sum_of(product(a, a), product(b, b), 1.0), product(c, c), -1.0);
 }
+
+/// Lengths here are near 1, or may as well be 0: no need for what std::hypot does about very large and small ones.
+double length_of(double x, double y) { return std::sqrt(x * x + y * y); }
 
 bool is_monotone(const Bernstein<6>& f) {
     bool rises = true;
@@ -45,29 +51,35 @@ bool is_monotone(const Bernstein<6>& f) {
     return rises || falls;
 }
 
-/// A zero of f in [0, 1]; f(u, value, slope), with values of different sign at the ends.
+/// A zero of f in [0, 1] by Newton's method, kept within a bracket; f(u, value, slope) has different signs at 0 and 1. It
+/// begins in the middle: at an end f may be nearly zero, and its sign there as good as none.
 template <class F>
 double bracketed_zero(F&& f, bool rises) {
     double lo = 0.0;
     double hi = 1.0;
     double u = 0.5;
-    double width = 1.0;
-    for (int i = 0; i < 120; ++i) {
+    double step = 1.0;
+    for (int i = 0; i < 100; ++i) {
         double value, slope;
         f(u, value, slope);
         if (value == 0.0) return u;
-        if ((value < 0.0) == rises) {
-            lo = u;
-        } else {
-            hi = u;
-        }
+        const bool below = (value < 0.0) == rises;  // the zero is above u
+        (below ? lo : hi) = u;
         double next = u - value / slope;
-        if (i % 3 == 2) {
-            if (!(hi - lo < 0.5 * width)) next = 0.5 * (lo + hi);
-            width = hi - lo;
+        // Steps that do not get shorter, or lead out of the bracket, are halvings instead.
+        if (!(next > lo && next < hi) || std::fabs(next - u) > 0.5 * step) next = 0.5 * (lo + hi);
+        step = std::fabs(next - u);
+        if (hi - lo <= 0x1p-53) return next;
+        if (step <= 0x1p-53) {
+            // Next to an end that is nearly zero itself, steps are short without a zero: there must be one close by.
+            const double beyond = next + (below ? kBeyond : -kBeyond);
+            if (!(beyond > lo && beyond < hi)) return next;
+            f(beyond, value, slope);
+            if (((value < 0.0) == rises) != below) return next;
+            (below ? lo : hi) = beyond;
+            next = 0.5 * (lo + hi);
+            step = 1.0;
         }
-        if (!(next > lo && next < hi)) next = 0.5 * (lo + hi);
-        if (std::fabs(next - u) <= 0x1p-53 || hi - lo <= 0x1p-53) return next;
         u = next;
     }
     return u;
@@ -81,14 +93,14 @@ ProfileLine::ProfileLine(const curves::Region& region, const LocalRay<double>& r
       d_{ray.dx, ray.dy, ray.dz},
       e_{ray.ex, ray.ey, ray.ez},
       length_(std::sqrt(ray.dd)),
-      across_(std::hypot(ray.dx, ray.dy)),
+      across_(length_of(ray.dx, ray.dy)),
       out_(out) {
     const double rounding = 32.0 * kUnitRoundoff * std::max(1.0, max_norm(o_));
     e_ += Vec3{rounding, rounding, rounding};
     const double up = std::fabs(d_.z);
     if (across_ <= kExact * length_) {
         slant_ = Slant::upright;
-        rho_ = std::hypot(o_.x, o_.y);
+        rho_ = length_of(o_.x, o_.y);
         const double least = kOffAxis * std::max(e_.x, e_.y);
         if (rho_ < least) {
             rho_ = least;
@@ -128,7 +140,7 @@ bool ProfileLine::meets(const Box2& box) const {
     const double near = first > 0.0 ? first * across_ : (last < 0.0 ? -last * across_ : 0.0);
     const double slack = er + 0x1p-45 * (1.0 + far);
     const double inner = std::max(box.lo.x - slack, 0.0);
-    return rho_ * rho_ + far * far >= inner * inner && std::hypot(rho_, near) <= box.hi.x + slack;
+    return rho_ * rho_ + far * far >= inner * inner && length_of(rho_, near) <= box.hi.x + slack;
 }
 
 void ProfileLine::meet(std::uint32_t i) {
@@ -205,13 +217,11 @@ void ProfileLine::meet_slanted(std::uint32_t i) {
         if (changes == 1) {
             const double u = bracketed_zero(
                 [&](double v, double& value, double& slope) {
-                    const double a = value_at(part.a, v);
-                    const double b = value_at(part.b, v);
-                    const double c = value_at(part.c, v);
-                    value = a * a + b * b - c * c;
-                    slope = 2.0 * (a * value_at(derivative(part.a), v) +
-                                   b * value_at(derivative(part.b), v) -
-                                   c * value_at(derivative(part.c), v));
+                    const curves::Jet a = curves::jet_at(part.a, v);
+                    const curves::Jet b = curves::jet_at(part.b, v);
+                    const curves::Jet c = curves::jet_at(part.c, v);
+                    value = a.value * a.value + b.value * b.value - c.value * c.value;
+                    slope = 2.0 * (a.value * a.slope + b.value * b.slope - c.value * c.slope);
                 },
                 rises);
             cross_at(i, part.lo + width * u, rises == (d_.z > 0.0) ? 1 : -1, 0);
@@ -249,10 +259,13 @@ bool ProfileLine::split_halves(std::uint32_t i, const Part& part) {
     for (const double half : {1.0, -1.0}) {
         const double u = bracketed_zero(
             [&](double v, double& value, double& slope) {
-                const double root = std::sqrt(std::max(value_at(k, v), 0.0));
-                value = value_at(part.a, v) - half * root;
-                slope = value_at(derivative(part.a), v) -
-                        half * 0.5 * value_at(derivative(k), v) / root;
+                const curves::Jet a = curves::jet_at(part.a, v);
+                const curves::Jet b = curves::jet_at(part.b, v);
+                const curves::Jet c = curves::jet_at(part.c, v);
+                const double square = (c.value - b.value) * (c.value + b.value);
+                const double root = std::sqrt(std::max(square, 0.0));
+                value = a.value - half * root;
+                slope = a.slope - half * (c.value * c.slope - b.value * b.slope) / root;
             },
             rises);
         // The half on which z - z_c, and with it d.z (s - s_c), is positive.
@@ -279,10 +292,10 @@ void ProfileLine::slope_at(const Piece& piece, double u, double s, double& slope
     const Vec2 t = curves::tangent(piece, u);
     const double x = o_.x + s * d_.x;
     const double y = o_.y + s * d_.y;
-    const double r = std::hypot(x, y);
+    const double r = length_of(x, y);
     const double inverse = r > 0.0 ? 1.0 / r : 0.0;
     const Vec3 n{t.y * x * inverse, t.y * y * inverse, -t.x};
-    const double size = norm(n);
+    const double size = std::sqrt(dot(n, n));
     slope = dot(n, d_) / size;
     ds = dot(abs(n), e_) / (size * std::fabs(slope));
 }
@@ -301,7 +314,7 @@ void ProfileLine::cross_at(std::uint32_t i, double u, int turn, int half) {
     const double way = ds * length_ + max_norm(e_);
     const Vec2 t = curves::tangent(piece, u);
     const double w = value_at(piece.w, u);
-    const double speed = norm(t) / (w * w);
+    const double speed = length_of(t.x, t.y) / (w * w);
     double bend = 0.0;
     for (const std::size_t k : {0U, 1U}) {
         bend = std::max({bend, std::fabs(piece.x[k] - 2.0 * piece.x[k + 1] + piece.x[k + 2]),
@@ -309,7 +322,7 @@ void ProfileLine::cross_at(std::uint32_t i, double u, int turn, int half) {
                          std::fabs(piece.w[k] - 2.0 * piece.w[k + 1] + piece.w[k + 2])});
     }
     const double du = way / speed;
-    const double round = std::fabs(t.y) / norm(t) / std::max(p.x, 0x1p-200);
+    const double round = std::fabs(t.y) / length_of(t.x, t.y) / std::max(p.x, 0x1p-200);
     if (!(16.0 * bend * du / speed + round * way <= kSteady * std::fabs(slope) / length_)) {
         out_.set_degenerate();
         return;
@@ -354,7 +367,7 @@ void ProfileLine::meet_corner(std::uint32_t i) {
             s = s_c_ + half * std::sqrt(std::max((p.x - rho_) * (p.x + rho_), 0.0)) / across_;
         }
         const Vec3 at = o_ + s * d_;
-        if (!(std::fabs(std::hypot(at.x, at.y) - p.x) <= er &&
+        if (!(std::fabs(length_of(at.x, at.y) - p.x) <= er &&
               std::fabs(at.z - p.y) <= 4.0 * e_.z)) {
             continue;
         }
