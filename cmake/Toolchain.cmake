@@ -12,6 +12,7 @@ string(REPLACE "-DNDEBUG" "" CMAKE_CXX_FLAGS_RELWITHDEBINFO "${CMAKE_CXX_FLAGS_R
 if(RAYMO_SANITIZE)
   add_compile_options(-fsanitize=${RAYMO_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
   add_link_options(-fsanitize=${RAYMO_SANITIZE})
+  add_compile_definitions(RAYMO_INLINE=inline RAYMO_INLINE_BODY=)
 endif()
 if(RAYMO_FUZZ)
   if(NOT CMAKE_CXX_COMPILER_ID STREQUAL "Clang")

@@ -4,8 +4,12 @@
 
 #include <cmath>
 
-/// For what is computed in registers: a call would take its numbers through memory.
-#define RAYMO_INLINE inline __attribute__((always_inline))
+/// For what is computed in registers: a call would take its numbers through memory. Builds for sanitizers leave it to the
+/// compiler, which needs minutes for checks of the long functions that come of it.
+#ifndef RAYMO_INLINE
+#define RAYMO_INLINE_BODY __attribute__((always_inline))  ///< of a lambda
+#define RAYMO_INLINE inline RAYMO_INLINE_BODY
+#endif
 
 namespace raymo {
 

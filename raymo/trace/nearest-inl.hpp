@@ -43,25 +43,24 @@ HWY_INLINE int spans_of(Walker<8>& w, std::uint32_t index, int first, SpanInLane
     int count = 0;
     Mask touched = Lanes(0.0) > Lanes(1.0);
     Lanes touch_lo(0.0);
-    visit_kernel(
-        w, frame, [&]<class K>(const K& kernel) __attribute__((always_inline)) {
-            constexpr int kSpans = kSpansInLanes<K>;
-            if constexpr (kSpans > 0) {
-                LaneSpans<Lanes, Mask, kSpans> found;
-                lane_spans(kernel, local.ray, found);
-                for (int k = 0; k < kSpans; ++k) {
-                    spans[k].valid = found.valid[k];
-                    spans[k].enter = end_at(local.shift, slack, found.enter[k],
-                                            found.enter_error[k], found.enter_face[k]);
-                    spans[k].exit = end_at(local.shift, slack, found.exit[k], found.exit_error[k],
-                                           found.exit_face[k]);
-                }
-                trouble = found.degenerate;
-                touched = found.touched;
-                touch_lo = local.shift + found.touch_lo;
-                count = kSpans;
+    visit_kernel(w, frame, [&]<class K>(const K& kernel) RAYMO_INLINE_BODY {
+        constexpr int kSpans = kSpansInLanes<K>;
+        if constexpr (kSpans > 0) {
+            LaneSpans<Lanes, Mask, kSpans> found;
+            lane_spans(kernel, local.ray, found);
+            for (int k = 0; k < kSpans; ++k) {
+                spans[k].valid = found.valid[k];
+                spans[k].enter = end_at(local.shift, slack, found.enter[k], found.enter_error[k],
+                                        found.enter_face[k]);
+                spans[k].exit = end_at(local.shift, slack, found.exit[k], found.exit_error[k],
+                                       found.exit_face[k]);
             }
-        });
+            trouble = found.degenerate;
+            touched = found.touched;
+            touch_lo = local.shift + found.touch_lo;
+            count = kSpans;
+        }
+    });
     trouble_lo = Lanes(kInfinity);
     if (lane_any(trouble)) trouble_lo = local.shift - Lanes(frame.reach) / lane_sqrt(local.ray.dd);
     if (lane_any(touched)) {
