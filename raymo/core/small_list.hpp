@@ -1,6 +1,7 @@
 // A list that lives where it is declared until it outgrows N items.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <vector>
@@ -19,11 +20,25 @@ public:
         }
         ++count_;
     }
+    /// Leaves out what stands behind the first `count` items.
+    void shrink(std::size_t count) {
+        if (count_ > N && count <= N) std::copy_n(many_.begin(), count, few_.begin());
+        if (count > N) many_.resize(count);
+        count_ = count;
+    }
+    /// The last item takes the place of item i.
+    void remove(std::size_t i) {
+        (*this)[i] = (*this)[count_ - 1];
+        shrink(count_ - 1);
+    }
     [[nodiscard]] std::size_t size() const { return count_; }
     [[nodiscard]] bool empty() const { return count_ == 0; }
     [[nodiscard]] T* begin() { return count_ <= N ? few_.data() : many_.data(); }
     [[nodiscard]] T* end() { return begin() + count_; }
+    [[nodiscard]] const T* begin() const { return count_ <= N ? few_.data() : many_.data(); }
+    [[nodiscard]] const T* end() const { return begin() + count_; }
     [[nodiscard]] T& operator[](std::size_t i) { return begin()[i]; }
+    [[nodiscard]] const T& operator[](std::size_t i) const { return begin()[i]; }
 
 private:
     std::array<T, N> few_;

@@ -6,20 +6,12 @@
 #include <string>
 
 #include "raymo/core/assert.hpp"
+#include "raymo/curves/build_errors.hpp"
 #include "raymo/math/affine.hpp"
 #include "raymo/math/tolerance.hpp"
 
 namespace raymo::curves {
 namespace {
-
-Failure wrong(int argument, std::string message, std::string hint = {}, std::string label = {}) {
-    return Failure(Error{ErrorCode::out_of_range,
-                         std::move(message),
-                         std::move(label),
-                         std::move(hint),
-                         argument,
-                         {}});
-}
 
 Result<void> check_length(double value, int argument, const char* name) {
     // Written so that NaN fails too.

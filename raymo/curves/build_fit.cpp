@@ -8,6 +8,7 @@
 #include <cmath>
 #include <string>
 
+#include "raymo/curves/build_errors.hpp"
 #include "raymo/curves/build_path.hpp"
 #include "raymo/math/tolerance.hpp"
 
@@ -18,15 +19,6 @@ constexpr std::size_t kMostFitted = 100000;
 constexpr int kMostHalvings = 44;
 constexpr int kFirstSpans = 8;
 constexpr int kChecks = 10;  ///< each span is looked at 1/10, 2/10, ..., 9/10 of its way
-
-Failure wrong(int argument, std::string message, std::string hint = {}, std::string label = {}) {
-    return Failure(Error{ErrorCode::out_of_range,
-                         std::move(message),
-                         std::move(label),
-                         std::move(hint),
-                         argument,
-                         {}});
-}
 
 struct Knot {
     double t = 0.0;

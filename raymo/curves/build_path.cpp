@@ -9,19 +9,11 @@
 #include <numbers>
 #include <string>
 
+#include "raymo/curves/build_errors.hpp"
 #include "raymo/curves/roots.hpp"
 
 namespace raymo::curves {
 namespace {
-
-Failure wrong(int argument, std::string message, std::string hint = {}, std::string label = {}) {
-    return Failure(Error{ErrorCode::out_of_range,
-                         std::move(message),
-                         std::move(label),
-                         std::move(hint),
-                         argument,
-                         {}});
-}
 
 PathSpan span_of(const SplineSpan<4>& s) {
     PathSpan out;

@@ -56,7 +56,4 @@ inline constexpr double kLargestCoordinate = 1e90;
 template <std::size_t D>
 [[nodiscard]] Result<Spline<D>> spline(std::span<const Point<D>> points, const SplineForm& form);
 
-/// The shortest text of a number, for labels.
-[[nodiscard]] std::string shown(double value);
-
 }  // namespace raymo::curves

@@ -231,15 +231,14 @@ void ContourSweep::spans(const LocalRay<double>& ray, SpanList& out) const {
     const Vec3 b{ray.dx, ray.dy, -g * ray.dz};
     const Vec3 e{ray.ex, ray.ey, g * ray.ez};
     const double length = std::sqrt(ray.dd);
-    const double least = least_direction(ray);
+    Window<double> between_ends;
+    open_window(between_ends);
+    clip_slab(between_ends, ray.oz, ray.dz, ray.ez, least_direction(ray), kBottom, kTop);
     bool touched = false;
     const auto touch = [&](double lo, double hi) {
         // Beyond the ends there is nothing to touch.
-        Window<double> w;
-        open_window(w);
-        clip_slab(w, ray.oz, ray.dz, ray.ez, least, 0.0, 1.0);
-        lo = std::max(lo, w.enter_first);
-        hi = std::min(hi, w.exit_last);
+        lo = std::max(lo, between_ends.enter_first);
+        hi = std::min(hi, between_ends.exit_last);
         if (lo > hi) return;
         // Two can not be told, and one that is long is a ray in the wall.
         if (touched || (hi - lo) * length > kDegenerate) out.set_degenerate();
@@ -247,11 +246,9 @@ void ContourSweep::spans(const LocalRay<double>& ray, SpanList& out) const {
         out.set_touch(lo, hi);
     };
     const auto emit = [&](const SpanEnd& enter, const SpanEnd& exit) {
-        Window<double> w;
-        open_window(w);
+        Window<double> w = between_ends;
         if (!std::isinf(enter.s)) clip_enter<double>(w, enter.s, enter.error, enter.face);
         if (!std::isinf(exit.s)) clip_exit<double>(w, exit.s, exit.error, exit.face);
-        clip_slab(w, ray.oz, ray.dz, ray.ez, least, kBottom, kTop);
         LaneSpans<double, bool, 1> lanes;
         close_window(w, ray, ray.dd > 0.0, 0, lanes);
         if (lanes.degenerate) out.set_degenerate();

@@ -1,21 +1,13 @@
 #include "raymo/solids/schema.hpp"
 
-#include <charconv>
 #include <cmath>
 #include <string>
 
 #include "raymo/core/assert.hpp"
+#include "raymo/core/shown.hpp"
 
 namespace raymo::solids {
 namespace {
-
-std::string shown(double value) {
-    if (std::isnan(value)) return "nan";
-    if (std::isinf(value)) return value > 0 ? "inf" : "-inf";
-    std::array<char, 32> text{};
-    const auto end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;
-    return {text.data(), end};
-}
 
 bool is_in_range(const Param& param, double value) {
     return std::isfinite(value) &&

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "raymo/curves/samples.hpp"
 #include "raymo/math/lanes.hpp"
@@ -134,7 +135,7 @@ Aabb Revolve::Kernel::bounds(const Affine& map) const {
     const auto most = [&](Vec3 n) {
         double c = std::hypot(n.x, n.y);
         if (!is_whole()) {
-            const double toward = std::atan2(n.y, n.x) * (180.0 / 3.14159265358979323846);
+            const double toward = std::atan2(n.y, n.x) * (180.0 / std::numbers::pi);
             const double turned = toward < 0.0 ? toward + 360.0 : toward;
             const SinCos end = sin_cos_degrees(angle_);
             if (turned > angle_) c = std::max(n.x, n.x * end.cos + n.y * end.sin);

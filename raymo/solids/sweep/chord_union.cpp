@@ -58,7 +58,7 @@ private:
 void ChordUnion::add(Chord chord) {
     if (chord.lo.outer > chord.hi.outer) return;
     if (!chord.certain()) {
-        maybe_.push(chord);
+        maybe_.push_back(chord);
         return;
     }
     for (std::size_t i = 0; i < certain_.size();) {
@@ -71,7 +71,7 @@ void ChordUnion::add(Chord chord) {
             ++i;
         }
     }
-    certain_.push(chord);
+    certain_.push_back(chord);
 }
 
 bool ChordUnion::covers(double lo, double hi) const {
@@ -107,7 +107,7 @@ void ChordUnion::finish(double unit, double limit, SpanList& out) {
         }
         if (!met) beside.touch(m.lo.outer, m.hi.outer);
     }
-    certain_.sort(before);
+    std::sort(certain_.begin(), certain_.end(), before);
     // Gaps that may be none are closed.
     std::size_t count = 0;
     for (std::size_t i = 0; i < certain_.size(); ++i) {
@@ -120,7 +120,7 @@ void ChordUnion::finish(double unit, double limit, SpanList& out) {
             certain_[count++] = next;
         }
     }
-    certain_.resize(count);
+    certain_.shrink(count);
     for (std::size_t i = 0; i < certain_.size(); ++i) {
         const Chord& c = certain_[i];
         const double enter_error = std::max(c.lo.t - c.lo.outer, c.lo.inner - c.lo.t);
