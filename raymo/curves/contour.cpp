@@ -12,10 +12,50 @@ namespace {
 /// What malloc adds to a block.
 constexpr double kBlock = 16.0;
 
-std::shared_ptr<ContourNode> outline_node(OutlinePtr outline) {
-    auto node = std::make_shared<ContourNode>();
-    node->outline = std::move(outline);
-    return node;
+/// Box of the control points; endless when one is not finite.
+Box2 hull_of(const Outline& outline) {
+    Box2 box;
+    for (const Curve& curve : outline.curves) {
+        for (const Span2& span : curve.spans) {
+            for (std::size_t i = 0; i < 4; ++i) {
+                const Vec2 p = span.point(i);
+                if (!is_finite(p)) return {{-Aabb::kInf, -Aabb::kInf}, {Aabb::kInf, Aabb::kInf}};
+                box.include(p);
+            }
+        }
+    }
+    return box;
+}
+
+Box2 moved(const Box2& box, Vec2 by) { return {box.lo + by, box.hi + by}; }
+
+/// What `of` says of an outline, asked once for each outline.
+template <class T>
+class PerOutline {
+public:
+    explicit PerOutline(T (*of)(const Outline&)) : of_(of) {}
+    const T& operator()(const OutlinePtr& outline) {
+        const auto [found, is_new] = known_.try_emplace(outline.get());
+        if (is_new) found->second = of_(*outline);
+        return found->second;
+    }
+
+private:
+    T (*of_)(const Outline&);
+    std::unordered_map<const Outline*, T> known_;
+};
+
+Outline mapped(const Outline& outline, const Affine2& map) {
+    Outline image = outline;
+    for (Curve& curve : image.curves) {
+        for (Span2& span : curve.spans) span = mapped(span, map);
+    }
+    return image;
+}
+
+bool is_same_image(const ContourNode& a, const ContourNode& b) {
+    if (a.at == b.at) return a.outline == b.outline || *a.outline == *b.outline;
+    return *placed_outline(a) == *placed_outline(b);
 }
 
 /// Widens lo..hi by the values of p / w on [0, 1]: those at the ends, and where the derivative's numerator p' w - p w' is 0.
@@ -49,8 +89,22 @@ ContourNode::~ContourNode() {
     for (Contour& operand : operands) let_go(std::move(operand), [](const ContourNode&) {});
 }
 
+Contour contour_of(OutlinePtr outline, Vec2 at) {
+    auto node = std::make_shared<ContourNode>();
+    node->outline = std::move(outline);
+    node->at = at;
+    return node;
+}
+
 Contour contour_of(Outline outline) {
-    return outline_node(std::make_shared<const Outline>(std::move(outline)));
+    return contour_of(std::make_shared<const Outline>(std::move(outline)), Vec2{});
+}
+
+OutlinePtr placed_outline(const ContourNode& node) {
+    RAYMO_ASSERT(node.op == ContourOp::outline);
+    if (node.at == Vec2{}) return node.outline;
+    return std::make_shared<const Outline>(
+        mapped(*node.outline, {1.0, 0.0, node.at.x, 0.0, 1.0, node.at.y}));
 }
 
 Contour contour_of(Curve curve) {
@@ -71,17 +125,17 @@ Contour combined(ContourOp op, std::vector<Contour> operands) {
 Contour mapped(const Contour& contour, const Affine2& map) {
     std::unordered_map<const ContourNode*, Contour> images;
     std::unordered_map<const Outline*, OutlinePtr> outlines;
+    const Affine2 turn{map.xx, map.xy, 0.0, map.yx, map.yy, 0.0};
     visit(contour, [&](const ContourNode& node) {
         if (node.op == ContourOp::outline) {
-            OutlinePtr& image = outlines[node.outline.get()];
-            if (image == nullptr) {
-                Outline outline = *node.outline;
-                for (Curve& curve : outline.curves) {
-                    for (Span2& span : curve.spans) span = mapped(span, map);
-                }
-                image = std::make_shared<const Outline>(std::move(outline));
+            OutlinePtr image = node.outline;
+            if (!is_move(map)) {
+                OutlinePtr& known = outlines[node.outline.get()];
+                if (known == nullptr)
+                    known = std::make_shared<const Outline>(mapped(*node.outline, turn));
+                image = known;
             }
-            images[&node] = outline_node(image);
+            images[&node] = contour_of(std::move(image), map(node.at));
             return;
         }
         std::vector<Contour> operands;
@@ -94,16 +148,13 @@ Contour mapped(const Contour& contour, const Affine2& map) {
 
 double extent_of(const Contour& contour) {
     double size = 0.0;
+    PerOutline<Box2> hull(&hull_of);
     visit(contour, [&](const ContourNode& node) {
         if (node.op != ContourOp::outline) return;
-        for (const Curve& curve : node.outline->curves) {
-            for (const Span2& span : curve.spans) {
-                for (std::size_t i = 0; i < 4; ++i) {
-                    const double at = max_norm(span.point(i));
-                    size = at <= size ? size : (at > size ? at : Aabb::kInf);
-                }
-            }
-        }
+        const Box2 box = moved(hull(node.outline), node.at);
+        if (box.empty()) return;
+        const double far = std::max(max_norm(box.lo), max_norm(box.hi));
+        size = far <= size ? size : (far > size ? far : Aabb::kInf);
     });
     return size;
 }
@@ -121,9 +172,10 @@ Box2 box_of(const Outline& outline) {
 
 Box2 box_of(const Contour& contour) {
     std::unordered_map<const ContourNode*, Box2> boxes;
+    PerOutline<Box2> box_at_origin(&box_of);
     visit(contour, [&](const ContourNode& node) {
         if (node.op == ContourOp::outline) {
-            boxes[&node] = box_of(*node.outline);
+            boxes[&node] = moved(box_at_origin(node.outline), node.at);
             return;
         }
         Box2 box = boxes[node.operands[0].get()];
@@ -158,7 +210,7 @@ bool is_equal(const Contour& a, const Contour& b) {
         if (x == y || !seen.insert({x, y}).second) continue;
         if (x->op != y->op || x->operands.size() != y->operands.size()) return false;
         if (x->op == ContourOp::outline) {
-            if (x->outline != y->outline && !(*x->outline == *y->outline)) return false;
+            if (!is_same_image(*x, *y)) return false;
             continue;
         }
         for (std::size_t i = 0; i < x->operands.size(); ++i)
@@ -189,6 +241,13 @@ double bytes_of(const Contour& contour) {
         if (node.outline != nullptr && outlines.insert(node.outline.get()).second)
             bytes += bytes_of(*node.outline);
     });
+    return bytes;
+}
+
+double bytes_of_image(const Contour& contour, const Affine2& map) {
+    if (!is_move(map)) return bytes_of(contour);
+    double bytes = 0.0;
+    visit(contour, [&](const ContourNode& node) { bytes += bytes_of(node); });
     return bytes;
 }
 

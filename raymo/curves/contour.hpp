@@ -1,7 +1,8 @@
 // Contours as values: an immutable, shared graph of outlines and their Booleans.
 //
 // What is swept along a contour of several outlines is the same Boolean of what each sweeps, exactly; so no curve is ever cut
-// by another one. An outline keeps its pointer through Booleans, so that what is made of it can be shared, too.
+// by another one. An outline keeps its pointer through Booleans and where it is moved, so that what is made of it can be
+// shared, too: a page of text holds each letter once.
 //
 // Graphs may be a million nodes deep, and a node may be reached on 2^100 paths. Everything here takes each node once and
 // keeps its place in a list, never on the call stack; that holds for freeing, too. A node is let go by one thread at a time.
@@ -25,6 +26,7 @@ using Contour = std::shared_ptr<const ContourNode>;
 struct ContourNode {
     ContourOp op = ContourOp::outline;
     OutlinePtr outline;             ///< of an outline
+    Vec2 at{};                      ///< of an outline: where its origin lies
     std::vector<Contour> operands;  ///< of the others: at least one
 
     ContourNode() = default;
@@ -35,10 +37,18 @@ struct ContourNode {
 
 [[nodiscard]] Contour contour_of(Outline outline);
 [[nodiscard]] Contour contour_of(Curve curve);
+[[nodiscard]] Contour contour_of(OutlinePtr outline, Vec2 at);
+/// The outline of a node of that kind, where it lies.
+[[nodiscard]] OutlinePtr placed_outline(const ContourNode& node);
 /// operands.size() >= 1. A single operand is the result itself.
 [[nodiscard]] Contour combined(ContourOp op, std::vector<Contour> operands);
-/// The image under an affine map; nodes and outlines that several operands share are mapped once each.
+/// The image under an affine map; nodes and outlines that several operands share are mapped once each. What is only moved
+/// keeps its outlines.
 [[nodiscard]] Contour mapped(const Contour& contour, const Affine2& map);
+/// Whether a map only moves.
+[[nodiscard]] constexpr bool is_move(const Affine2& map) {
+    return map.xx == 1.0 && map.xy == 0.0 && map.yx == 0.0 && map.yy == 1.0;
+}
 /// Largest coordinate of its control points; infinite when one is not a number.
 [[nodiscard]] double extent_of(const Contour& contour);
 /// Box of the curves of an outline: exact but for rounding. Cost: about 1 us a span.
@@ -89,5 +99,7 @@ void let_go(Contour contour, F&& f) {
 [[nodiscard]] double bytes_of(const ContourNode& node);
 /// Bytes of a whole contour: what a copy of it costs.
 [[nodiscard]] double bytes_of(const Contour& contour);
+/// Bytes that the image of a contour takes besides what it shares with the contour.
+[[nodiscard]] double bytes_of_image(const Contour& contour, const Affine2& map);
 
 }  // namespace raymo::curves

@@ -58,6 +58,26 @@ TEST_CASE("outlines keep their pointer through Booleans, and are mapped once") {
     CHECK(combined(ContourOp::unite, {a}) == a);
 }
 
+TEST_CASE(
+    "a contour that is moved keeps its outline; one that is turned as well shares the turned one") {
+    const Contour a = disc(1);
+    const Contour row = combined(ContourOp::unite, {a, mapped(a, {1, 0, 3, 0, 1, 0.5})});
+    CHECK(row->operands[1]->outline == a->outline);
+    CHECK(row->operands[1]->at == Vec2{3, 0.5});
+    const Affine2 quarter{0, -1, 10, 1, 0, 20};
+    const Contour turned = mapped(row, quarter);
+    CHECK(turned->operands[0]->outline == turned->operands[1]->outline);
+    CHECK(turned->operands[1]->at == quarter({3, 0.5}));
+    CHECK(bytes_of_image(row, {1, 0, 7, 0, 1, 0}) < bytes_of(row) - 4 * sizeof(Span2));
+    CHECK(bytes_of_image(row, quarter) == bytes_of(row));
+    // The same place, however it came there.
+    const Contour placed = contour_of(*placed_outline(*row->operands[1]));
+    CHECK(placed->at == Vec2{});
+    CHECK(is_equal(placed, row->operands[1]));
+    CHECK(box_of(placed) == box_of(row->operands[1]));
+    CHECK(extent_of(placed) == extent_of(row->operands[1]));
+}
+
 TEST_CASE("contours are equal when they are the same Booleans of the same curves") {
     CHECK(is_equal(disc(1), disc(1)));
     CHECK(!is_equal(disc(1), disc(2)));

@@ -56,6 +56,8 @@ struct Schema {
     std::string_view doc;
     std::span<const Param> params;
     std::string_view example;  ///< an expression that the manual shows and the tests run
+    /// Where its contour is moved by some (x, y), the solid is moved by (x, y, 0), and else the same.
+    bool moves_with_contour = false;
 };
 
 /// Checks that `arguments` (one for each param, in order, of the alternative its kind asks for) are finite and in range.

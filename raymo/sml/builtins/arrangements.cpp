@@ -58,14 +58,14 @@ bool row(Call& call, const csg::Solid& s, double n, Vec3 step, csg::Solid& out) 
     return true;
 }
 
-// Contours are drawn anew for each copy, so there may be fewer of them.
+// Contours that are turned are drawn anew for each copy, so there may be fewer of them.
 constexpr double kMostContours = 1e6;
 
 // The union of n copies of a contour, each under its own map of the plane.
 template <class F>
 bool copies(Call& call, double n, F&& map_of, Value& out) {
     const curves::Contour contour = call[0].as<ContourObject>().value;
-    const double bytes = curves::bytes_of(contour);
+    const double bytes = curves::bytes_of_image(contour, map_of(1.0));
     if (!call.evaluator().room(bytes * n, call.node())) return false;
     std::vector<curves::Contour> operands{contour};
     double charged = 0.0;
@@ -76,7 +76,7 @@ bool copies(Call& call, double n, F&& map_of, Value& out) {
                              "the contour becomes too large to be computed with",
                              "stay within 1e90 of the origin");
         }
-        charged += curves::bytes_of(operands.back());
+        charged += bytes;
         if (!call.evaluator().worked(bytes / 64.0, call.node())) return false;
     }
     curves::Contour all = curves::combined(curves::ContourOp::unite, std::move(operands));

@@ -88,8 +88,9 @@ struct GivenArgument {
 /// Runs the primitive of the call's row.
 bool make_primitive(Call& call, Value& out);
 /// The Boolean of what make(outline) makes for each outline of a contour, as the contour is the Boolean of its outlines.
-/// make() is called once for each outline, however often the contour uses it. Cost: one visit of each node of the contour.
-bool for_each_outline(Call& call, const curves::Contour& contour,
+/// make() is called once for each outline, however often the contour uses it: where it is moved to, too, if `moves_along`
+/// says that what is made moves along. Cost: one visit of each node of the contour.
+bool for_each_outline(Call& call, const curves::Contour& contour, bool moves_along,
                       const std::function<bool(const curves::OutlinePtr&, Value&)>& make,
                       Value& out);
 bool report_unavailable(Call& call, Value& out);

@@ -164,7 +164,7 @@ bool chain(Call& call, Value& out) {
                                  is_in_list ? "this list has several curves in one element"
                                             : "this has several curves");
             }
-            joined.push_back(contour->outline->curves[0]);
+            joined.push_back(curves::placed_outline(*contour)->curves[0]);
             slots.push_back(argument);
             spans += static_cast<double>(joined.back().spans.size());
             return call.evaluator().room(2.0 * sizeof(curves::Span2) * spans, call.node());

@@ -24,7 +24,7 @@ bool apply_to_contour(Call& call, const curves::Contour& contour, const Affine& 
         return call.fail(blame, ErrorCode::singular, "it makes the contour flat",
                          "no scale may be 0, and the axes must keep different directions");
     }
-    const double bytes = curves::bytes_of(contour);
+    const double bytes = curves::bytes_of_image(contour, plane);
     if (!call.evaluator().room(bytes, call.node())) return false;
     curves::Contour image = curves::mapped(contour, plane);
     if (!(curves::extent_of(image) <= curves::kLargestCoordinate)) {
@@ -32,8 +32,7 @@ bool apply_to_contour(Call& call, const curves::Contour& contour, const Affine& 
                          "the contour becomes too large to be computed with",
                          "stay within 1e90 of the origin");
     }
-    const double charged = curves::bytes_of(image);
-    return call.evaluator().made(std::move(image), charged, call.node(), out);
+    return call.evaluator().made(std::move(image), bytes, call.node(), out);
 }
 
 // The path's image. Its spheres must stay spheres.

@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <functional>
+#include <map>
 #include <unordered_map>
 
 #include "raymo/sml/builtins/call.hpp"
@@ -198,30 +199,54 @@ bool intersection(Call& call, Value& out) { return boolean(call, csg::Op::inters
 
 }  // namespace
 
-bool for_each_outline(Call& call, const curves::Contour& contour,
+bool for_each_outline(Call& call, const curves::Contour& contour, bool moves_along,
                       const std::function<bool(const curves::OutlinePtr&, Value&)>& make,
                       Value& out) {
-    if (contour->op == curves::ContourOp::outline) return make(contour->outline, out);
-    std::unordered_map<const curves::Outline*, csg::Solid> of_outline;
+    // What one outline makes, at the origin and where it is asked for.
+    struct Made {
+        csg::Solid at_origin;
+        std::map<std::pair<double, double>, csg::Solid> placed;
+    };
+    std::unordered_map<const curves::Outline*, Made> of_outline;
+    const auto make_at = [&](const curves::ContourNode& node, csg::Solid& solid) {
+        Made& known = of_outline[node.outline.get()];
+        csg::Solid& placed = known.placed[{node.at.x, node.at.y}];
+        if (!placed) {
+            Value made;
+            const bool is_moved = node.at != Vec2{};
+            if (!moves_along || !is_moved) {
+                if (!make(curves::placed_outline(node), made)) return false;
+                placed = made.take_solid();
+            } else {
+                if (!known.at_origin) {
+                    if (!make(node.outline, made)) return false;
+                    known.at_origin = made.take_solid();
+                }
+                if (!call.result(
+                        csg::transform(known.at_origin, translation({node.at.x, node.at.y, 0.0}),
+                                       call.span()),
+                        made)) {
+                    return false;
+                }
+                placed = made.take_solid();
+            }
+        }
+        solid = placed;
+        return true;
+    };
     std::unordered_map<const curves::ContourNode*, csg::Solid> of_node;
     bool good = true;
     curves::visit(contour, [&](const curves::ContourNode& node) {
         if (!good) return;
-        Value made;
         if (node.op == curves::ContourOp::outline) {
-            csg::Solid& solid = of_outline[node.outline.get()];
-            if (!solid) {
-                good = make(node.outline, made);
-                if (!good) return;
-                solid = made.take_solid();
-            }
-            of_node[&node] = solid;
+            good = make_at(node, of_node[&node]);
             return;
         }
         std::vector<csg::Solid> operands;
         operands.reserve(node.operands.size());
         for (const curves::Contour& operand : node.operands)
             operands.push_back(of_node[operand.get()]);
+        Value made;
         good = call.evaluator().combine(solid_op(node.op), std::move(operands), call.node(),
                                         call.span(), made);
         if (good) of_node[&node] = made.take_solid();
@@ -273,7 +298,7 @@ bool make_primitive(Call& call, Value& out) {
     if (contour == nullptr) return make(out);
     // Arguments are checked once more for each outline; a contour of many outlines makes as many solids.
     return for_each_outline(
-        call, contour,
+        call, contour, schema.moves_with_contour,
         [&](const curves::OutlinePtr& outline, Value& made) {
             arguments[swept] = outline;
             return make(made);

@@ -18,7 +18,7 @@ const Schema& Prism::schema() {
               .doc = "true: its middle at z = 0; false: standing on the plane z = 0",
               .fallback = false}};
     static const Schema kSchema{"prism", "A contour swept straight up, from z = 0 to h.", kParams,
-                                "prism(polygon([(0, 0), (20, 0), (10, 15)]), 8)"};
+                                "prism(polygon([(0, 0), (20, 0), (10, 15)]), 8)", true};
     return kSchema;
 }
 
