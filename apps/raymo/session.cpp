@@ -9,6 +9,7 @@
 #include "apps/raymo/params_file.hpp"
 #include "apps/raymo/system/executor.hpp"
 #include "apps/raymo/system/files.hpp"
+#include "apps/raymo/system/fonts.hpp"
 #include "apps/raymo/system/interrupt.hpp"
 #include "apps/raymo/system/memory_limit.hpp"
 #include "apps/raymo/text.hpp"
@@ -70,6 +71,7 @@ Attempt<sml::Host> Session::host(Watch& watch) {
     out.load = [imports](const std::string& from, const std::string& path, std::string& resolved) {
         return imports->load(from, path, resolved);
     };
+    out.font = [this](const std::string& name) { return find_font(name, console); };
     out.answers = make_answers(&watch);
     out.print = [this](std::string_view line) { console.note(line); };
     out.limits.call_depth = options.call_depth;

@@ -13,6 +13,7 @@
 
 #include "raymo/core/row_index.hpp"
 #include "raymo/sml/builtins/builtin.hpp"
+#include "raymo/sml/drawings.hpp"
 #include "raymo/sml/program.hpp"
 #include "raymo/sml/value.hpp"
 
@@ -91,6 +92,11 @@ public:
     [[nodiscard]] SourceSpan span(NodeId node) const { return program_.ast[node].span(); }
     [[nodiscard]] Program& program() { return program_; }
     [[nodiscard]] const Host& host() const { return host_; }
+    [[nodiscard]] Drawings& drawings() { return drawings_; }
+    /// The file that a place is in.
+    [[nodiscard]] const std::string& path(SourceSpan where) const {
+        return outcome_.sources[where.file].path;
+    }
     [[nodiscard]] scene::Scene& scene() { return outcome_.scene; }
     /// False while an imported file runs: it contributes names only.
     [[nodiscard]] bool in_main_file() const { return in_main_file_; }
@@ -207,6 +213,7 @@ private:
     Outcome& outcome_;
     Reporter& reporter_;
     Heap heap_;
+    Drawings drawings_;
     ValueStack stack_;
     std::vector<Value> globals_;
     Frame* frame_ = nullptr;

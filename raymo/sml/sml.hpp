@@ -64,13 +64,22 @@ struct Limits {
     double bytes = 4.0 * (1ULL << 30);  ///< of values and solids
 };
 
+/// A font as a file holds it.
+struct FontFile {
+    std::string bytes;
+    long face = 0;  ///< of a collection
+};
+
 /// What the language is given from outside.
 struct Host {
-    /// Text of the file that `path` names in the file `from`; path as resolved in `resolved` (used to recognise a file
-    /// that is imported twice). Null: imports are an error.
+    /// What is in the file that `path` names in the file `from`: a program that is imported, a drawing or a font; path as
+    /// resolved in `resolved` (used to recognise a file that is named twice). Null: no file can be read.
     std::function<Result<std::string>(const std::string& from, const std::string& path,
                                       std::string& resolved)>
         load;
+    /// The font that is called that: a family, "DejaVu Sans", and what else tells it from others of its family, "DejaVu
+    /// Sans:bold". Null: fonts must be given as files.
+    std::function<Result<FontFile>(const std::string& name)> font;
     Answers answers;
     std::function<void(std::string_view line)> print;  ///< null: dropped
     /// Seconds of CPU so far; null: no time limit.

@@ -157,6 +157,14 @@ Run run(const fs::path& path, const Program& program) {
         resolved = found.lexically_normal().string();
         return read(found);
     };
+    // The fonts that every machine has which can build this.
+    host.font = [](const std::string& name) -> Result<sml::FontFile> {
+        const std::map<std::string, std::string> files{{"DejaVu Sans", "DejaVuSans.ttf"},
+                                                       {"DejaVu Sans:bold", "DejaVuSans-Bold.ttf"}};
+        const auto found = files.find(name);
+        if (found == files.end()) return fail(ErrorCode::io, "there is no font \"" + name + "\"");
+        return sml::FontFile{read("/usr/share/fonts/truetype/dejavu/" + found->second), 0};
+    };
     host.answers.contains = [](const csg::Solid& s, Vec3 p) -> Result<bool> {
         return csg::bounds(s).contains(p);
     };

@@ -79,6 +79,7 @@ struct GivenArgument {
 [[nodiscard]] std::span<const BuiltinRow> solid_rows();
 [[nodiscard]] std::span<const BuiltinRow> contour_rows();
 [[nodiscard]] std::span<const BuiltinRow> path_rows();
+[[nodiscard]] std::span<const BuiltinRow> drawing_rows();
 [[nodiscard]] std::span<const BuiltinRow> transform_rows();
 [[nodiscard]] std::span<const BuiltinRow> arrangement_rows();
 [[nodiscard]] std::span<const BuiltinRow> look_rows();

@@ -1,0 +1,116 @@
+// Contours that others have drawn: letters of fonts.
+
+#include <fmt/core.h>
+
+#include <array>
+
+#include "raymo/drawings/typeset.hpp"
+#include "raymo/sml/builtins/call.hpp"
+#include "raymo/sml/lexer.hpp"
+#include "raymo/sml/suggest.hpp"
+#include "raymo/sml/text.hpp"
+
+namespace raymo::sml {
+namespace {
+
+// The slots of the parameters of text() and text_width().
+constexpr std::size_t kText = 0;
+constexpr std::size_t kSize = 1;
+constexpr std::size_t kFont = 2;
+constexpr std::size_t kSpacing = 3;
+constexpr std::size_t kLineSpacing = 4;
+constexpr std::size_t kAlign = 5;
+
+std::u32string characters_of(std::string_view text) {
+    std::u32string out;
+    out.reserve(text.size());
+    for (std::size_t at = 0; at < text.size();) {
+        std::uint32_t length = 0;
+        out.push_back(code_point(text, at, length));
+        at += length;
+    }
+    return out;
+}
+
+/// An error of reading a file or of what is in it, at the argument that names it.
+bool fail_at(Call& call, std::size_t i, Error error) {
+    return call.fail(i, error.code, error.message, std::move(error.hint), std::move(error.label));
+}
+
+bool find_font(Call& call, drawings::FontPtr& out) {
+    std::string name(kDefaultFont);
+    if (call.has(kFont) && !call.text(kFont, name)) return false;
+    if (name.empty()) {
+        return call.fail(kFont, ErrorCode::bad_argument, "the font has no name",
+                         fmt::format("leave out `font` for {}", kDefaultFont));
+    }
+    auto font = call.evaluator().drawings().font(call.evaluator().path(call.span()), name);
+    if (!font) return fail_at(call, kFont, std::move(font).error());
+    out = *std::move(font);
+    return true;
+}
+
+bool set(Call& call, drawings::TextStyle style, drawings::SetText& out) {
+    std::string written;
+    drawings::FontPtr font;
+    if (!call.text(kText, written) || (call.has(kSize) && !call.number(kSize, style.size)) ||
+        (call.has(kSpacing) && !call.number(kSpacing, style.spacing)) ||
+        (call.has(kLineSpacing) && !call.number(kLineSpacing, style.line_spacing)) ||
+        !find_font(call, font)) {
+        return false;
+    }
+    // A letter takes a node, its handle while it is set, and its character.
+    constexpr double kBytesEach = 256.0;
+    if (!call.evaluator().room(kBytesEach * static_cast<double>(written.size()), call.node()))
+        return false;
+    bool is_reported = false;
+    auto made = drawings::typeset(*font, characters_of(written), style, [&] {
+        is_reported = !call.evaluator().worked(1e6, call.node());
+        return !is_reported;
+    });
+    if (is_reported) return false;
+    if (!made) {
+        static constexpr std::array kSlots{kText, kSize, kSpacing, kLineSpacing, kFont};
+        return call.fail(std::move(made).error(), kSlots);
+    }
+    out = *std::move(made);
+    return true;
+}
+
+bool text(Call& call, Value& out) {
+    drawings::TextStyle style;
+    if (call.has(kAlign)) {
+        static constexpr auto kAligns =
+            std::to_array<std::string_view>({"left", "center", "right"});
+        std::size_t chosen = 0;
+        if (!call.choice(kAlign, kAligns, chosen)) return false;
+        style.align = static_cast<drawings::Align>(chosen);
+    }
+    drawings::SetText made;
+    if (!set(call, style, made)) return false;
+    if (made.contour == nullptr) {
+        return call.fail(kText, ErrorCode::empty, "the text shows nothing",
+                         "where there may be none, ask first: if len(label) > 0 { ... }",
+                         fmt::format("this is {}", quoted(shortened(call[kText].string()))));
+    }
+    return call.evaluator().made(std::move(made.contour), made.bytes, call.node(), out);
+}
+
+bool text_width(Call& call, Value& out) {
+    drawings::SetText made;
+    return set(call, {}, made) && call.result(made.width, out);
+}
+
+}  // namespace
+
+std::span<const BuiltinRow> drawing_rows() {
+    static constexpr auto kRows = std::to_array<BuiltinRow>({
+        {"text", "text size? font? | spacing? line_spacing? align?", &text,
+         "Letters as contours; `size` is the height of capitals."},
+        {"text_width", "text size? font? | spacing? line_spacing?", &text_width,
+         "How far the letters of text() reach: where the next one would begin."},
+    });
+    return kRows;
+}
+
+}  // namespace raymo::sml
