@@ -56,4 +56,22 @@ Result<drawings::FontPtr> Drawings::font(const std::string& from, const std::str
     return fonts_[key] = font;
 }
 
+Result<drawings::DrawingPtr> Drawings::drawing(const std::string& from, const std::string& path,
+                                               const drawings::GoOn& go_on) {
+    const Key key{folder_of(from), path};
+    if (const auto known = drawings_.find(key); known != drawings_.end()) return known->second;
+    if (!host_.load) return fail(ErrorCode::io, "files can not be read here");
+    std::string resolved;
+    auto bytes = host_.load(from, path, resolved);
+    if (!bytes) return Failure(std::move(bytes).error());
+    drawings::DrawingPtr& drawing = drawing_files_[resolved];
+    if (drawing == nullptr) {
+        auto read = drawings::Drawing::read(resolved, *std::move(bytes), go_on);
+        if (!read) return Failure(std::move(read).error());
+        drawing = *std::move(read);
+        Heap::current().charge(drawing->bytes());
+    }
+    return drawings_[key] = drawing;
+}
+
 }  // namespace raymo::sml

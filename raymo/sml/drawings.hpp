@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "raymo/drawings/font.hpp"
+#include "raymo/drawings/svg.hpp"
 #include "raymo/sml/sml.hpp"
 
 namespace raymo::sml {
@@ -17,6 +18,10 @@ public:
     /// The font that the file `from` calls `name`: a family, or a font file relative to that file.
     /// Error: as the host says, or of Font::open().
     [[nodiscard]] Result<drawings::FontPtr> font(const std::string& from, const std::string& name);
+    /// The drawing in the file that the file `from` calls `path`. Error: as the host says, or of Drawing::read().
+    [[nodiscard]] Result<drawings::DrawingPtr> drawing(const std::string& from,
+                                                       const std::string& path,
+                                                       const drawings::GoOn& go_on);
 
 private:
     /// Where a name is relative to, and the name.
@@ -25,6 +30,8 @@ private:
     const Host& host_;
     std::map<Key, drawings::FontPtr> fonts_;
     std::map<std::string, drawings::FontPtr> font_files_;
+    std::map<Key, drawings::DrawingPtr> drawings_;
+    std::map<std::string, drawings::DrawingPtr> drawing_files_;
 };
 
 /// The font where none is named.

@@ -4,6 +4,7 @@
 #   ```raymo            a whole program: `raymo check` must accept it
 #   ```raymo cup.raymo  the same, and commands further down find it under that name
 #   ```raymo cup.raymo exit 1   a program that must be refused with that exit code
+#   ```xml plate.svg    a file that programs further down read
 #   ```console          lines "$ command" are run and must succeed; the lines below one are what it prints
 #   ```console exit 1   the same for commands that end with that exit code
 #
@@ -21,7 +22,7 @@ export PATH NO_COLOR=1
 # One file a block: its first line tells kind, argument and line, the rest is the block.
 awk '
     /^```/ && inside { inside = 0; close(name); next }
-    /^```(raymo|console)/ && !skipping {
+    /^```(raymo|console|xml [a-z])/ && !skipping {
         inside = 1; name = sprintf("block-%03d", ++count)
         info = substr($0, 4); print info, "@" FNR > name; next
     }
@@ -66,7 +67,9 @@ for block in block-*; do
     [ -e "$block" ] || break
     read -r kind first second third _ < "$block"
     line=$(sed -n '1s/.*@//p' "$block")
-    if [ "$kind" = raymo ]; then
+    if [ "$kind" = xml ]; then
+        sed 1d "$block" > "$first"
+    elif [ "$kind" = raymo ]; then
         case $first in @*) name=$block.raymo ;; *) name=$first ;; esac
         sed 1d "$block" > "$name"
         status=0

@@ -1,7 +1,8 @@
-// Contours that others have drawn: letters of fonts.
+// Contours that others have drawn: letters of fonts, and drawings in SVG.
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <array>
 
 #include "raymo/drawings/typeset.hpp"
@@ -101,6 +102,80 @@ bool text_width(Call& call, Value& out) {
     return set(call, {}, made) && call.result(made.width, out);
 }
 
+/// The id that is nearest to one that is not there, or the first ones.
+std::string id_hint(std::string_view written, std::vector<std::string_view> ids) {
+    Suggestion suggestion(written);
+    for (const std::string_view id : ids) suggestion.consider(id);
+    if (suggestion.found()) return suggestion.hint();
+    if (ids.empty()) return "none of its elements has an id";
+    constexpr std::size_t kMostShown = 8;
+    const std::size_t shown = std::min(ids.size(), kMostShown);
+    std::partial_sort(ids.begin(), ids.begin() + static_cast<long>(shown), ids.end());
+    std::string hint = "its ids are";
+    for (std::size_t i = 0; i < shown; ++i)
+        hint += (i == 0 ? " `" : ", `") + shortened(ids[i]) + "`";
+    return ids.size() > shown ? fmt::format("{} and {} more", hint, ids.size() - shown) : hint;
+}
+
+/// What a drawing without a filled shape has instead.
+std::string empty_hint(const drawings::Drawn& drawn) {
+    if (drawn.unfilled > 0) return "its shapes are not filled; `unfilled: true` takes them as well";
+    if (drawn.texts > 0) return "its texts are no curves: turn them into paths where you draw";
+    if (drawn.images > 0) return "its pictures are no curves: trace them where you draw";
+    return {};
+}
+
+// svg("logo.svg", id: "front")
+bool svg(Call& call, Value& out) {
+    constexpr std::size_t kFile = 0;
+    constexpr std::size_t kId = 1;
+    constexpr std::size_t kUnfilled = 2;
+    std::string file;
+    std::string id;
+    bool takes_unfilled = false;
+    if (!call.text(kFile, file) || (call.has(kId) && !call.text(kId, id)) ||
+        (call.has(kUnfilled) && !call.flag(kUnfilled, takes_unfilled))) {
+        return false;
+    }
+    if (call.has(kId) && id.empty())
+        return call.fail(kId, ErrorCode::bad_argument, "the id is empty",
+                         "leave out `id` for the whole drawing");
+    bool is_reported = false;
+    const drawings::GoOn go_on = [&](double bytes) {
+        is_reported = !call.evaluator().room(bytes, call.node()) ||
+                      !call.evaluator().worked(1e6, call.node());
+        return !is_reported;
+    };
+    const auto drawing =
+        call.evaluator().drawings().drawing(call.evaluator().path(call.span()), file, go_on);
+    if (is_reported) return false;
+    if (!drawing) return fail_at(call, kFile, drawing.error());
+    auto drawn = (*drawing)->contour(id, takes_unfilled, go_on);
+    if (is_reported) return false;
+    if (!drawn) {
+        Error error = std::move(drawn).error();
+        const bool is_id = error.code == ErrorCode::name;
+        if (is_id) error.hint = id_hint(id, (*drawing)->ids());
+        return fail_at(call, is_id ? kId : kFile, std::move(error));
+    }
+    const std::size_t blamed = call.has(kId) ? kId : kFile;
+    if (drawn->contour == nullptr) {
+        return call.fail(blamed, ErrorCode::empty, "nothing is filled in it", empty_hint(*drawn));
+    }
+    if (!(curves::extent_of(drawn->contour) <= curves::kLargestCoordinate)) {
+        return call.fail(blamed, ErrorCode::out_of_range,
+                         "the drawing is too large to be computed with",
+                         "stay within 1e90 of the origin");
+    }
+    if (drawn->texts + drawn->images > 0) {
+        const std::string_view both = drawn->texts > 0 && drawn->images > 0 ? " and " : "";
+        call.warn(fmt::format("its {}{}{} are left out", drawn->texts > 0 ? "texts" : "", both,
+                              drawn->images > 0 ? "pictures" : ""),
+                  "turn them into paths where you draw");
+    }
+    return call.evaluator().made(std::move(drawn->contour), drawn->bytes, call.node(), out);
+}
+
 }  // namespace
 
 std::span<const BuiltinRow> drawing_rows() {
@@ -109,6 +184,8 @@ std::span<const BuiltinRow> drawing_rows() {
          "Letters as contours; `size` is the height of capitals."},
         {"text_width", "text size? font? | spacing? line_spacing?", &text_width,
          "How far the letters of text() reach: where the next one would begin."},
+        {"svg", "file | id? unfilled?", &svg,
+         "What is filled in a drawing, or in one element of it, in millimetres."},
     });
     return kRows;
 }

@@ -8,7 +8,7 @@ namespace raymo::sml {
 
 std::span<const std::string_view> unavailable_names() {
     static constexpr auto kNames = std::to_array<std::string_view>(
-        {"smooth", "patches", "rounded", "filleted", "svg", "mesh", "volume", "area", "centroid",
+        {"smooth", "patches", "rounded", "filleted", "mesh", "volume", "area", "centroid",
          "inertia", "clearance", "overlaps"});
     return kNames;
 }

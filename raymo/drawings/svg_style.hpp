@@ -1,0 +1,48 @@
+// Which shapes of a drawing are filled, and by which rule: as attributes, in `style`, or by a style sheet [SVG11 6].
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace raymo::drawings {
+
+/// What is said of one element; what is not said comes from the element around it, except `display`.
+struct Style {
+    std::optional<bool> is_filled;    ///< fill
+    std::optional<bool> is_even_odd;  ///< fill-rule
+    std::optional<bool> is_visible;   ///< visibility
+    std::optional<bool> is_shown;     ///< display
+
+    /// Takes a property; one that is not of these four is nothing.
+    void set(std::string_view name, std::string_view value);
+    /// Takes "fill: none; stroke: red".
+    void set_all(std::string_view declarations);
+    /// What `other` says goes before what is said here.
+    void override_by(const Style& other);
+};
+
+/// Rules with selectors of one element: `path`, `.logo`, `#front`, `path.logo.red`, `*`, and lists of them. Others, those with
+/// blanks, brackets or colons in them, and rules of @media and the like, are left out.
+class StyleSheet {
+public:
+    void add(std::string_view text);
+    [[nodiscard]] bool is_empty() const { return rules_.empty(); }
+    /// What it says of an element; `classes` are parted by blanks.
+    [[nodiscard]] Style of(std::string_view tag, std::string_view id,
+                           std::string_view classes) const;
+
+private:
+    struct Rule {
+        std::string tag, id;
+        std::vector<std::string> classes;
+        int rank = 0;  ///< of the selector: the higher goes before
+        Style style;
+    };
+    void add_rules(std::string_view selectors, const Style& style);
+
+    std::vector<Rule> rules_;
+};
+
+}  // namespace raymo::drawings

@@ -1,0 +1,98 @@
+#include "raymo/drawings/svg_values.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+#include "raymo/drawings/svg_style.hpp"
+
+namespace raymo::drawings {
+namespace {
+
+TEST_CASE("lengths come in px, of which 96 are an inch, or as parts") {
+    CHECK(read_length("12")->of(1.0) == 12.0);
+    CHECK(read_length(" 12px ")->of(1.0) == 12.0);
+    CHECK(read_length("1in")->of(1.0) == doctest::Approx(96.0).epsilon(1e-15));
+    CHECK(read_length("7mm")->millimetres() == 7.0);
+    CHECK(read_length("2in")->millimetres() == 50.8);
+    CHECK(read_length("25.4mm")->of(1.0) == doctest::Approx(96.0).epsilon(1e-15));
+    CHECK(read_length("2.54cm")->of(1.0) == doctest::Approx(96.0).epsilon(1e-15));
+    CHECK(read_length("72pt")->of(1.0) == doctest::Approx(96.0).epsilon(1e-15));
+    CHECK(read_length("6pc")->of(1.0) == doctest::Approx(96.0).epsilon(1e-15));
+    CHECK(read_length("101.6Q")->of(1.0) == doctest::Approx(96.0).epsilon(1e-15));
+    CHECK(read_length("1e1mm")->of(1.0) == doctest::Approx(960 / 25.4).epsilon(1e-15));
+    CHECK(read_length("50%")->of(30.0) == 15.0);
+    for (const char* bad : {"", "mm", "1em", "1 mm", "12px;", "1%%", "--1", "1..2"})
+        CHECK_FALSE(read_length(bad).has_value());
+    CHECK(read_length("3furlongs").error().what ==
+          "\"furlongs\" is none of the units px, mm, cm, in, pt, pc, Q and %");
+    CHECK(read_length("3furlongs").error().at == 1);
+}
+
+TEST_CASE("transformations are applied from the last to the first") {
+    const auto at = [](std::string_view text, Vec2 p) { return (*read_transform(text))(p); };
+    CHECK(at("", {1, 2}) == Vec2{1, 2});
+    CHECK(at("translate(10)", {1, 2}) == Vec2{11, 2});
+    CHECK(at("translate(10 20)scale(2)", {1, 2}) == Vec2{12, 24});
+    CHECK(at("scale(2,3) , translate(1 , 1)", {1, 2}) == Vec2{4, 9});
+    CHECK(at("rotate(90)", {1, 0}) == Vec2{0, 1});
+    CHECK(at("rotate(90 1 1)", {1, 0}) == Vec2{2, 1});
+    CHECK(at("matrix(1 2 3 4 5 6)", {1, 1}) == Vec2{9, 12});
+    CHECK(at("skewX(45)", {0, 2}).x == doctest::Approx(2.0).epsilon(1e-15));
+    CHECK(at("skewY(45)", {2, 0}).y == doctest::Approx(2.0).epsilon(1e-15));
+    const auto misfit = [](std::string_view text) {
+        const auto out = read_transform(text);
+        REQUIRE_FALSE(out.has_value());
+        return std::to_string(out.error().at) + ": " + out.error().what;
+    };
+    CHECK(misfit("turn(3)") ==
+          "0: the transformations are matrix, translate, scale, rotate, skewX "
+          "and skewY, not \"turn\"");
+    CHECK(misfit("rotate 3") == "7: \"(\" is missing before \"3\"");
+    CHECK(misfit("rotate(3") == "8: a number is missing at the end");
+    CHECK(misfit("scale()") == "0: scale takes 1 or 2 numbers, not 0");
+    CHECK(misfit("matrix(1 2 3)") == "0: matrix takes 6 numbers, not 3");
+    CHECK(misfit("rotate(1 2)") == "0: rotate takes 1 or 3 numbers, not 2");
+    CHECK_FALSE(read_transform("translate(1 2 3 4 5 6 7 8)").has_value());
+}
+
+TEST_CASE("view boxes and aspect ratios") {
+    CHECK(read_view_box("1 2,3 4")->height == 4.0);
+    for (const char* bad : {"", "1 2 3", "1 2 3 4 5", "0 0 0 1", "0 0 1 -1", "a"})
+        CHECK_FALSE(read_view_box(bad).has_value());
+    CHECK(read_aspect("none")->is_free);
+    CHECK(read_aspect("xMinYMax slice")->covers);
+    CHECK(read_aspect("xMinYMax")->x == 0.0);
+    CHECK(read_aspect("defer xMinYMax meet")->y == 1.0);
+    for (const char* bad : {"", "middle", "xMinYMax grow", "xminymax"})
+        CHECK_FALSE(read_aspect(bad).has_value());
+}
+
+TEST_CASE("styles: what is said last, and nearer to the element, goes before") {
+    Style style;
+    style.set_all("fill : none; stroke:red;;fill-rule:evenodd!important; display: none");
+    CHECK(*style.is_filled == false);
+    CHECK(*style.is_even_odd);
+    CHECK_FALSE(*style.is_shown);
+    CHECK_FALSE(style.is_visible.has_value());
+    style.set_all("fill:#fff;display:inline;fill-rule:inherit");
+    CHECK(*style.is_filled);
+    CHECK(*style.is_shown);
+    CHECK(*style.is_even_odd);
+
+    StyleSheet sheet;
+    sheet.add(
+        "/* a { fill: none } */ @import 'x'; @media print { path { fill: none } }"
+        ".out, #two { fill: none } path.out { fill: red } g > path { display: none }"
+        "* { visibility: hidden } rect { visibility: visible");
+    CHECK(sheet.of("circle", "", "").is_filled == std::nullopt);
+    CHECK(*sheet.of("circle", "", "x out").is_filled == false);
+    CHECK(*sheet.of("path", "", "out").is_filled == true);
+    CHECK(*sheet.of("path", "two", "out").is_filled == false);
+    CHECK(sheet.of("path", "", "").is_shown == std::nullopt);
+    CHECK(*sheet.of("path", "", "").is_visible == false);
+    CHECK(*sheet.of("rect", "", "").is_visible);
+}
+
+}  // namespace
+}  // namespace raymo::drawings
