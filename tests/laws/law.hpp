@@ -57,6 +57,7 @@ struct Law {
 };
 
 void add_solid_laws(std::vector<Law>& laws);
+void add_drawing_laws(std::vector<Law>& laws);
 void add_tree_laws(std::vector<Law>& laws);
 void add_identity_laws(std::vector<Law>& laws);
 void add_start_laws(std::vector<Law>& laws);

@@ -33,6 +33,7 @@ int main(int argc, char** argv) {
     }
     std::vector<Law> laws;
     add_solid_laws(laws);
+    add_drawing_laws(laws);
     add_tree_laws(laws);
     add_identity_laws(laws);
     add_start_laws(laws);

@@ -76,7 +76,7 @@ Attempt<std::string> read_text(const std::string& path, const Console& console) 
     const auto too_long = [&] {
         return trouble(kModelWrong, in_quotes(name) + " is longer than " +
                                         std::to_string(sml::kMaxTextBytes >> 20) +
-                                        " MiB, the limit of a program's text");
+                                        " MiB, the limit of a program's text and of what it reads");
     };
     if (S_ISREG(info.st_mode) && info.st_size > static_cast<off_t>(sml::kMaxTextBytes))
         return too_long();
