@@ -227,6 +227,7 @@ Result<Font::Glyph*> Font::glyph(std::uint32_t index) {
     glyph.outline.fill = (drawn.flags & FT_OUTLINE_EVEN_ODD_FILL) != 0 ? curves::Fill::even_odd
                                                                        : curves::Fill::non_zero;
     glyph.advance = static_cast<double>(s.face->glyph->metrics.horiAdvance);
+    bytes_ += sizeof(Glyph) + curves::bytes_of(glyph.outline);
     return &glyph;
 }
 

@@ -52,6 +52,9 @@ public:
     [[nodiscard]] Result<curves::OutlinePtr> outline(std::uint32_t glyph, double size,
                                                      bool& is_new);
 
+    /// Memory that the glyphs read so far take.
+    [[nodiscard]] double bytes() const { return bytes_; }
+
 private:
     struct State;
     explicit Font(std::string name);
@@ -64,6 +67,7 @@ private:
     std::unique_ptr<State> state_;
     double capital_height_ = 0.0;
     double line_height_ = 0.0;
+    double bytes_ = 0.0;
 };
 
 using FontPtr = std::shared_ptr<Font>;

@@ -12,7 +12,8 @@ namespace {
 constexpr std::string_view kSvgSpace = "http://www.w3.org/2000/svg";
 constexpr std::string_view kLinkSpace = "http://www.w3.org/1999/xlink";
 constexpr std::size_t kMostNested = 10000;
-constexpr int kBytesAtATime = 1 << 16;
+constexpr std::size_t kMostBytes = std::size_t{1} << 30;
+constexpr std::uint32_t kBetweenQuestions = 1024;
 
 using Names = std::array<std::string_view, 6>;
 constexpr Names kBox{"x", "y", "width", "height", "rx", "ry"};
@@ -59,18 +60,12 @@ public:
         XML_SetUserData(parser_, this);
         XML_SetElementHandler(parser_, &start, &end);
         XML_SetCharacterDataHandler(parser_, &characters);
-        std::string_view rest = document_.text;
-        bool is_last = false;
-        while (!is_last) {
-            if (!may_go_on()) break;
-            const std::string_view part = rest.substr(0, kBytesAtATime);
-            rest.remove_prefix(part.size());
-            is_last = rest.empty();
-            if (XML_Parse(parser_, part.data(), static_cast<int>(part.size()), is_last ? 1 : 0) !=
-                XML_STATUS_OK) {
-                break;
-            }
-        }
+        // At once: expat looks at what is not complete anew for each part that it is given.
+        const std::string_view text = document_.text;
+        if (text.size() > kMostBytes)
+            return fail(ErrorCode::limit, "the drawing is larger than 1 GiB");
+        if (!go_on_(bytes_)) return fail(ErrorCode::cancelled, "stopped");
+        XML_Parse(parser_, text.data(), static_cast<int>(text.size()), 1);
         if (failure_) return Failure(std::move(*failure_));
         if (const XML_Error error = XML_GetErrorCode(parser_); error != XML_ERROR_NONE) {
             const XML_Index at = error_index();
@@ -91,11 +86,14 @@ private:
     static void XMLCALL end(void* self, const XML_Char*) { of(self).close(); }
     static void XMLCALL characters(void* self, const XML_Char* text, int length) {
         Reader& reader = of(self);
-        if (reader.is_in_style_ && !reader.failure_)
-            reader.sheet_text_.append(text, static_cast<std::size_t>(length));
+        if (!reader.may_go_on() || !reader.is_in_style_) return;
+        reader.sheet_text_.append(text, static_cast<std::size_t>(length));
+        reader.bytes_ += length;
     }
 
     bool may_go_on() {
+        if (failure_) return false;
+        if (++steps_ % kBetweenQuestions != 0) return true;
         const double elements =
             static_cast<double>(document_.elements.capacity() * sizeof(SvgElement));
         if (go_on_(bytes_ + elements)) return true;
@@ -112,7 +110,7 @@ private:
     }
 
     void open(std::string_view name, const XML_Char** attributes) {
-        if (failure_) return;
+        if (!may_go_on()) return;
         here_ = static_cast<std::size_t>(std::max<XML_Index>(0, XML_GetCurrentByteIndex(parser_)));
         const std::size_t space = name.rfind(' ');
         const bool is_ours = space == std::string_view::npos || name.substr(0, space) == kSvgSpace;
@@ -319,6 +317,7 @@ private:
     std::string sheet_text_;
     std::size_t here_ = 0;
     double bytes_ = 0.0;
+    std::uint32_t steps_ = 0;
     bool is_in_style_ = false;
 };
 

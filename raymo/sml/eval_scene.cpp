@@ -22,7 +22,12 @@ std::string bytes_text(double bytes) {
 }  // namespace
 
 Evaluator::Evaluator(Program& program, const Host& host, Outcome& outcome, Reporter& reporter)
-    : program_(program), ast_(program.ast), host_(host), outcome_(outcome), reporter_(reporter), drawings_(host) {
+    : program_(program),
+      ast_(program.ast),
+      host_(host),
+      outcome_(outcome),
+      reporter_(reporter),
+      drawings_(host) {
     for (const DocOf& doc : ast_.docs) docs_[doc.node] = doc.text;
 }
 

@@ -111,7 +111,7 @@ class Pictures(CommandLine):
         self.write("folder.raymo", 'import "." as g\npart p = sphere(1)\n')
         self.assertIn("is a folder", self.run_raymo("check", "folder.raymo", code=1).stderr)
         self.write("folder.raymo", 'import "lib" as g\npart p = sphere(1)\n')
-        self.assertIn('import "lib/name.raymo"', self.run_raymo("check", "folder.raymo", code=1).stderr)
+        self.assertIn('as in "lib/name.raymo"', self.run_raymo("check", "folder.raymo", code=1).stderr)
         self.write("folder.raymo", 'import ".." as g\npart p = sphere(1)\n')
         self.assertIn("outside", self.run_raymo("check", "folder.raymo", code=1).stderr)
         self.write("none.raymo", 'import "nowhere.raymo" as g\npart p = sphere(1)\n')

@@ -65,10 +65,13 @@ bool set(Call& call, drawings::TextStyle style, drawings::SetText& out) {
     if (!call.evaluator().room(kBytesEach * static_cast<double>(written.size()), call.node()))
         return false;
     bool is_reported = false;
+    const double before = font->bytes();
     auto made = drawings::typeset(*font, characters_of(written), style, [&] {
         is_reported = !call.evaluator().worked(1e6, call.node());
         return !is_reported;
     });
+    // What the font keeps stays until the end.
+    Heap::current().charge(font->bytes() - before);
     if (is_reported) return false;
     if (!made) {
         static constexpr std::array kSlots{kText, kSize, kSpacing, kLineSpacing, kFont};

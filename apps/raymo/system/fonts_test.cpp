@@ -1,0 +1,50 @@
+// Fonts of the package fonts-dejavu-core, by name.
+#include "apps/raymo/system/fonts.hpp"
+
+#include <doctest/doctest.h>
+
+namespace raymo::app {
+namespace {
+
+const Console& console() {
+    static const Console kConsole(-1, -1, -1);
+    return kConsole;
+}
+
+std::string error(const std::string& name) {
+    const auto found = find_font(name, console());
+    return found ? "none" : found.error().message;
+}
+
+TEST_CASE("fonts are found by family, and by what tells them from others of it") {
+    const auto sans = find_font("DejaVu Sans", console());
+    REQUIRE(sans.has_value());
+    CHECK(sans->bytes.size() > 100000);
+    CHECK(sans->face == 0);
+    const auto bold = find_font("DejaVu Sans:bold", console());
+    REQUIRE(bold.has_value());
+    CHECK(bold->bytes != sans->bytes);
+    CHECK(find_font("DejaVu Sans:style=Bold", console())->bytes == bold->bytes);
+    CHECK(find_font("dejavu sans:bold", console())->bytes == bold->bytes);
+    CHECK(find_font("DejaVu Serif", console()).has_value());
+}
+
+TEST_CASE("no other font stands in for one that is not there") {
+    CHECK(error("No Such Font At All") ==
+          "there is no font \"No Such Font At All\" on this machine");
+    CHECK(error("DejaVu Sans:style=Wobbly") ==
+          "there is no font \"DejaVu Sans:style=Wobbly\" on this machine");
+    CHECK(find_font("DejaVu Sanz", console()).error().hint == "did you mean `DejaVu Sans`?");
+    CHECK(find_font("DejaVu Sans:style=Wobbly", console())
+              .error()
+              .hint.find("DejaVu Sans:style=Bold") != std::string::npos);
+    for (const std::string& name :
+         {std::string(":bold"), std::string("A,B"), std::string("a\0b", 3), std::string("-12"),
+          std::string(100000, 'x'), std::string("\xff\xfe"), std::string(":"),
+          std::string("a:style="), std::string("\\")}) {
+        CHECK(error(name) != "none");
+    }
+}
+
+}  // namespace
+}  // namespace raymo::app
