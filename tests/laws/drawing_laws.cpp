@@ -43,7 +43,7 @@ OutlinePtr shape(Random& random) {
         "<path d='M0-9L5.3 7.3-8.6-2.8H8.6L-5.3 7.3Z'/>",
         "<path d='M-9 0q3-8 6 0t6 0 6 0V6q-3 4-6 0T-3 6-9 6z'/>",
         "<path d='M0 0C12 9-12 9 0 0S-9-12-2-3 5 5 0 0zM1 1l1e-6 3 2 0z'/>",
-        "<path d='M-5-5C-4-5 5-6 5-5 5-4 6 4 5 5C4 5-4 6-5 5-5 4-6-3-5-5M0 0Q2 0 3 0T3 3z'/>",
+        "<path d='M-5-5C-4-5 5-6 5-5 5-4 6 4 5 5C4 5-4 6-5 5-5 4-6-3-5-5M0 0Q2 1 3 0T3 3z'/>",
         "<rect width='9' height='5' rx='2' ry='1'/>",
         "<ellipse cx='1' cy='2' rx='9' ry='0.5'/>",
         "<polygon points='0,0 9,0 9,1e-9 3,1 9,2 0,9 0,5 0,5 0,5'/>",
@@ -112,8 +112,9 @@ AimedRay ray_at_joint(const Outline& outline, Random& random) {
 }
 
 template <class OutlineOf>
-void add(std::vector<Law>& laws, const std::string& name, OutlineOf outline_of) {
-    for (const std::string swept : {"prism", "conic", "revolve"}) {
+void add(std::vector<Law>& laws, const std::string& name, std::initializer_list<const char*> solids,
+         OutlineOf outline_of) {
+    for (const std::string swept : solids) {
         laws.push_back(
             {name + ": " + swept, 1000000,
              [swept, outline_of](std::uint64_t rays, Random& random, Tally& tally) {
@@ -155,8 +156,9 @@ void add(std::vector<Law>& laws, const std::string& name, OutlineOf outline_of) 
 }  // namespace
 
 void add_drawing_laws(std::vector<Law>& laws) {
-    add(laws, "letters", [font = font()](Random& random) { return letter(*font, random); });
-    add(laws, "drawn shapes", [](Random& random) { return shape(random); });
+    add(laws, "letters", {"prism", "conic", "revolve"},
+        [font = font()](Random& random) { return letter(*font, random); });
+    add(laws, "drawn shapes", {"prism", "conic"}, [](Random& random) { return shape(random); });
 }
 
 }  // namespace raymo::laws
