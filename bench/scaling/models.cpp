@@ -2,41 +2,18 @@
 
 #include <array>
 #include <cmath>
-#include <initializer_list>
 #include <numeric>
 #include <optional>
 #include <random>
 #include <utility>
 #include <vector>
 
+#include "primitive.hpp"
+
 namespace raymo::bench {
 namespace {
 
 using csg::Solid;
-
-/// A primitive by its name in the language; parameters that are not given take their fallback.
-Result<Solid> make(std::string_view name,
-                   std::initializer_list<std::pair<std::string_view, solids::Argument>> given) {
-    const auto inventory = solids::inventory();
-    for (std::uint32_t index = 0; index < inventory.size(); ++index) {
-        const solids::Schema& schema = *inventory[index].schema;
-        if (schema.name != name) continue;
-        std::vector<solids::Argument> arguments;
-        for (const solids::Param& param : schema.params) {
-            const solids::Argument* value = param.fallback ? &*param.fallback : nullptr;
-            for (const auto& [key, argument] : given) {
-                if (key == param.name) value = &argument;
-            }
-            if (value == nullptr) {
-                return fail(ErrorCode::bad_argument,
-                            std::string(name) + ": no " + std::string(param.name));
-            }
-            arguments.push_back(*value);
-        }
-        return csg::primitive(index, arguments);
-    }
-    return fail(ErrorCode::name, "no primitive " + std::string(name));
-}
 
 /// Collects solids and the first error among them, so that the models below read like what they
 /// describe.
@@ -47,10 +24,10 @@ public:
         if (!error_) error_ = std::move(solid).error();
         return {};
     }
-    Solid block(Vec3 size) { return take(make("block", {{"size", size}, {"center", true}})); }
-    Solid sphere(double r) { return take(make("sphere", {{"r", r}})); }
+    Solid block(Vec3 size) { return take(primitive("block", {{"size", size}, {"center", true}})); }
+    Solid sphere(double r) { return take(primitive("sphere", {{"r", r}})); }
     Solid cylinder(double r, double h) {
-        return take(make("cylinder", {{"r", r}, {"h", h}, {"center", true}}));
+        return take(primitive("cylinder", {{"r", r}, {"h", h}, {"center", true}}));
     }
     Solid placed(const Solid& solid, const Affine& map) {
         return solid ? take(csg::transform(solid, map)) : Solid{};
