@@ -107,7 +107,7 @@ bool print(const Shape& shape, const Rays& rays, const Errors& errors, std::size
     const double with_build = theirs / (compile + ours);
     const double without = packets / ours;
     std::printf(
-        "%-11s %5.0f %9zu %6.1f %7.3f | %7.1f %7.1f | %7.1f %7.1f %6.1f %6.1f %6.1f | %6.1f %6.1f "
+        "%-11s %5.0f %9zu %6.1f %7.3f | %7.1f %7.1f | %7.1f %7.1f %6.1f %6.1f %6.1f | %6.2f %6.2f "
         "%6.2f  %g: %s\n",
         std::string(shape.name).c_str(), level.wrong, triangles,
         1e6 * static_cast<double>(errors.wrong) / count, errors.angle, ours * ray,
