@@ -1,4 +1,4 @@
-// A control knob: a turned body within a knurled prism, a tapered pointer, a dent and a collar. The same scene in SML: knob.raymo.
+// A turned knob within a knurled prism, with a tapered pointer, a dent and a collar. The same scene in SML: knob.raymo.
 // POV-Ray is left-handed with y up, RAYMO right-handed with z up: <a, b, c> here is (a, c, b) there.
 // Declare=Flat=1 leaves out light and shading: every surface then shows the pure colour of its class.
 #version 3.7;

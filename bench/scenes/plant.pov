@@ -1,4 +1,4 @@
-// A plant: fifty sweeps of varying radius, ten stems and forty leaves, in a turned pot. The same scene in SML: plant.raymo.
+// Fifty sweeps of varying radius, ten stems and forty leaves, in a turned pot. The same scene in SML: plant.raymo.
 // POV-Ray is left-handed with y up, RAYMO right-handed with z up: <a, b, c> here is (a, c, b) there.
 // Declare=Flat=1 leaves out light and shading: every surface then shows the pure colour of its class.
 #version 3.7;
@@ -32,7 +32,8 @@ camera { perspective location <2, 13, -22> up y right x*image_width/image_height
     b_spline 7,
     #for (J, 0, 6)
       #local R = 0.3+0.08*J*J;
-      <R*cos(radians(Turn)), Height*J/6-1, R*sin(radians(Turn))>, (J < 5 ? 0.2-0.02*J : (J = 5 ? 0.45 : 0.3)) #if (J < 6) , #end
+      <R*cos(radians(Turn)), Height*J/6-1, R*sin(radians(Turn))>, (J < 5 ? 0.2-0.02*J : (J = 5 ? 0.45 : 0.3))
+      #if (J < 6) , #end
     #end
     Paint(<0.8, 0.45, 0.5>, <1, 1, 0>) }
 #end

@@ -1,4 +1,4 @@
-// A coil spring of twelve turns between two seats: one cubic B-spline of 147 points. The same scene in SML: spring.raymo.
+// A spring of twelve turns between two seats: one cubic B-spline of 147 points. The same scene in SML: spring.raymo.
 // POV-Ray is left-handed with y up, RAYMO right-handed with z up: <a, b, c> here is (a, c, b) there.
 // Declare=Flat=1 leaves out light and shading: every surface then shows the pure colour of its class.
 #version 3.7;

@@ -1,4 +1,4 @@
-// A wine glass, turned from one profile of splines, with balls on a floor behind it: refraction through thin walls. The same scene in SML: wine_glass.raymo.
+// A glass turned from one profile of splines, with balls on a floor behind it. The same scene in SML: wine_glass.raymo.
 // POV-Ray is left-handed with y up, RAYMO right-handed with z up: <a, b, c> here is (a, c, b) there.
 // Declare=Flat=1 leaves out light and shading: every surface then shows the pure colour of its class, the glass too.
 #version 3.7;
