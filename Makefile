@@ -72,7 +72,8 @@ docs: examples demo ## rewrite the pages and pictures that follow from the sourc
 	@scripts/install-dependencies build test
 	@[ -e build/dev/build.ninja ] || cmake --preset dev
 	@cmake --build --preset dev --target manual_solids
-	@build/dev/tests/house/manual_solids > docs/manual/solids.md
+	@build/dev/tests/house/manual_solids write docs/manual
+	@tests/house/manual_pictures.py $(raymo) docs/manual --renew
 	@cp $(demo_picture) docs/demo.png
 
 clean: ## remove everything that was built

@@ -55,7 +55,7 @@ struct Schema {
     std::string_view name;
     std::string_view doc;
     std::span<const Param> params;
-    std::string_view example;  ///< an expression that the manual shows and the tests run
+    std::string_view example;  ///< a program that the manual shows and the tests draw
     /// Where its contour is moved by some (x, y), the solid is moved by (x, y, 0), and else the same.
     bool moves_with_contour = false;
 };

@@ -1,9 +1,19 @@
-// Prints docs/manual/solids.md from the schemas of the inventory.
+// The manual's pages on solids: what the schemas of the inventory declare stands in them between two markers.
+//
+//   manual_solids write FOLDER    prints that part of solids.md and solids/NAME.md anew, in FOLDER; makes pages that are missing
+//   manual_solids check FOLDER    exit code 1 where a page says something else, is missing, or is about no primitive
+//
+// What stands before and behind the markers is written by hand and left alone.
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 #include <iostream>
+#include <optional>
+#include <sstream>
 #include <string>
+#include <vector>
 
 #include "raymo/solids/inventory.hpp"
 
@@ -114,30 +124,100 @@ std::string faces(const solids::Entry& entry) {
     return out;
 }
 
-void print(const solids::Entry& entry) {
+constexpr std::string_view kBegin = "<!-- From the schemas, by `make docs`: -->\n";
+constexpr std::string_view kEnd = "<!-- Below this line everything is written by hand. -->\n";
+
+struct Page {
+    std::filesystem::path file;
+    std::string part;  ///< what stands between the markers
+};
+
+Page page_of(const std::filesystem::path& folder, const solids::Entry& entry) {
     const solids::Schema& schema = *entry.schema;
-    std::cout << "\n## " << schema.name << "\n\n"
-              << schema.doc << "\n\n`" << signature(schema) << "`\n\n"
-              << "| argument | meaning | kind | must be | default |\n|---|---|---|---|---|\n";
+    const std::string name(schema.name);
+    std::ostringstream out;
+    out << "# " << name << "\n\n"
+        << schema.doc << "\n\n![" << name << "](../pictures/" << name << ".png)\n\n"
+        << "```raymo\n"
+        << schema.example << "\n```\n\n## Arguments\n\n`" << signature(schema) << "`\n\n"
+        << "| argument | meaning | kind | must be | default |\n|---|---|---|---|---|\n";
     for (const Param& param : schema.params) {
-        std::cout << "| `" << param.name << "` | " << param.doc;
-        if (!param.diameter.empty()) std::cout << "; or `" << param.diameter << "`, twice that";
-        std::cout << " | " << kind_words(param) << " | " << range_words(param) << " | "
-                  << fallback_words(param) << " |\n";
+        out << "| `" << param.name << "` | " << param.doc;
+        if (!param.diameter.empty()) out << "; or `" << param.diameter << "`, twice that";
+        out << " | " << kind_words(param) << " | " << range_words(param) << " | "
+            << fallback_words(param) << " |\n";
     }
-    std::cout << "\nFaces: " << faces(entry) << ".\n\n```raymo\n" << schema.example << "\n```\n";
+    out << "\nFaces: " << faces(entry) << ".\n\n";
+    return {folder / "solids" / (name + ".md"), out.str()};
+}
+
+Page index(const std::filesystem::path& folder) {
+    std::ostringstream out;
+    out << "# Solids\n\n| | |\n|---|---|\n";
+    for (const solids::Entry& entry : solids::inventory()) {
+        const std::string name(entry.schema->name);
+        out << "| [![" << name << "](pictures/" << name << ".png)](solids/" << name << ".md) | **["
+            << name << "](solids/" << name << ".md)** " << entry.schema->doc << " `"
+            << signature(*entry.schema) << "` |\n";
+    }
+    out << '\n';
+    return {folder / "solids.md", out.str()};
+}
+
+std::optional<std::string> read(const std::filesystem::path& file) {
+    std::ifstream in(file, std::ios::binary);
+    if (!in) return std::nullopt;
+    return std::string(std::istreambuf_iterator<char>(in), {});
+}
+
+/// The text with `part` between its markers; none where it has no markers.
+std::optional<std::string> joined(const std::string& text, const std::string& part) {
+    const std::size_t begin = text.find(kBegin);
+    const std::size_t end = text.find(kEnd);
+    if (begin == std::string::npos || end == std::string::npos || end < begin) return std::nullopt;
+    return text.substr(0, begin + kBegin.size()) + part + text.substr(end);
+}
+
+/// Brings a page up to date, or only tells whether it is.
+bool settle(const Page& page, bool may_write) {
+    const auto complain = [&](const char* what) {
+        std::cerr << page.file.string() << ": " << what << '\n';
+        return false;
+    };
+    const std::optional<std::string> text = read(page.file);
+    if (!text && !may_write) return complain("is missing: run `make docs`");
+    const std::optional<std::string> wanted =
+        joined(text.value_or(std::string(kBegin) + std::string(kEnd)), page.part);
+    if (!wanted) return complain("has lost the markers of what follows from the schemas");
+    if (text == wanted) return true;
+    if (!may_write) return complain("does not follow the schemas any more: run `make docs`");
+    std::filesystem::create_directories(page.file.parent_path());
+    std::ofstream out(page.file, std::ios::binary);
+    out << *wanted;
+    out.close();
+    return out ? true : complain("can not be written");
 }
 
 }  // namespace
 
-int main() {
-    std::cout << "# Solids\n\n"
-                 "The primitives of the language, as their schemas declare them; `make docs` "
-                 "prints this page.\n"
-                 "Arguments are given by position or by name: `sphere(10)`, `sphere(r: 10)`. A "
-                 "value outside its range "
-                 "is an error\nthat shows the value. Every solid is a closed set of points, and "
-                 "the names of its faces "
-                 "appear in the answers of\n`raymo rays`.\n";
-    for (const solids::Entry& entry : solids::inventory()) print(entry);
+int main(int count, char** words) {
+    const std::string_view task = count == 3 ? words[1] : "";
+    if (task != "write" && task != "check") {
+        std::cerr << "usage: manual_solids write|check FOLDER\n";
+        return 2;
+    }
+    const std::filesystem::path folder = words[2];
+    std::vector<Page> pages{index(folder)};
+    for (const solids::Entry& entry : solids::inventory()) pages.push_back(page_of(folder, entry));
+    bool good = true;
+    for (const Page& page : pages) good = settle(page, task == "write") && good;
+    std::error_code none;
+    for (const auto& found : std::filesystem::directory_iterator(folder / "solids", none)) {
+        bool known = false;
+        for (const Page& page : pages) known = known || page.file == found.path();
+        if (known) continue;
+        std::cerr << found.path().string() << ": there is no such primitive\n";
+        good = false;
+    }
+    return good ? 0 : 1;
 }

@@ -60,7 +60,7 @@ const Schema& Block::schema() {
               .fallback = false}};
     static const Schema kSchema{"block",
                                 "A block with edges along the axes and one corner at the origin.",
-                                kParams, "block(30, 20, 10)"};
+                                kParams, "block(30, 20, 10).paint(\"steelblue\")"};
     return kSchema;
 }
 

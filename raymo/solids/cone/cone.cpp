@@ -89,7 +89,7 @@ const Schema& Cone::schema() {
               .fallback = false}};
     static const Schema kSchema{
         "cone", "A cone or cone frustum about the z axis, standing on the plane z = 0.", kParams,
-        "cone(r1: 10, r2: 4, h: 15)"};
+        "cone(r1: 10, r2: 4, h: 15).paint(\"seagreen\")"};
     return kSchema;
 }
 

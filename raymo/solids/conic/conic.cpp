@@ -27,7 +27,9 @@ const Schema& Conic::schema() {
     static const Schema kSchema{"conic",
                                 "A contour swept up while it is scaled about the z axis, from 1 at "
                                 "z = 0 to `top` at z = h.",
-                                kParams, "conic(rectangle(20, 12, center: true), 15, top: 0.4)"};
+                                kParams,
+                                "let foot = rectangle(24, 16, radius: 5, center: true)\n"
+                                "conic(foot - circle(5), 14, top: 0.6).paint(\"olivedrab\")"};
     return kSchema;
 }
 

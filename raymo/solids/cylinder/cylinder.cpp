@@ -67,7 +67,7 @@ const Schema& Cylinder::schema() {
               .fallback = false}};
     static const Schema kSchema{"cylinder",
                                 "A cylinder about the z axis, standing on the plane z = 0.",
-                                kParams, "cylinder(r: 5, h: 20)"};
+                                kParams, "cylinder(r: 5, h: 20).paint(\"goldenrod\")"};
     return kSchema;
 }
 

@@ -53,7 +53,7 @@ const Schema& Halfspace::schema() {
               .fallback = 0.0}};
     static const Schema kSchema{
         "halfspace", "All points on one side of a plane; unbounded, so only an operand of & and -.",
-        kParams, "block(10) & halfspace((1, 1, 1), 15)"};
+        kParams, "block(20, center: true) & halfspace((1, -1, 1), 13).paint(\"crimson\")"};
     return kSchema;
 }
 

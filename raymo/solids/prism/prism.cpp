@@ -17,8 +17,11 @@ const Schema& Prism::schema() {
               .kind = ParamKind::flag,
               .doc = "true: its middle at z = 0; false: standing on the plane z = 0",
               .fallback = false}};
-    static const Schema kSchema{"prism", "A contour swept straight up, from z = 0 to h.", kParams,
-                                "prism(polygon([(0, 0), (20, 0), (10, 15)]), 8)", true};
+    static const Schema kSchema{
+        "prism", "A contour swept straight up, from z = 0 to h.", kParams,
+        "let cam = bspline([(-14, 0), (0, -16), (36, -8), (36, 8), (0, 16)], closed: true)\n"
+        "prism(cam - circle(5), 8).paint(\"orange\")",
+        true};
     return kSchema;
 }
 

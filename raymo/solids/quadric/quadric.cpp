@@ -55,7 +55,9 @@ const Schema& Quadric::schema() {
                      "(p, 1) <= 0"}};
     static const Schema kSchema{
         "quadric", "All points where a polynomial of degree 2 is not positive; may be unbounded.",
-        kParams, "quadric([[1, 0, 0, 0], [0, 4, 0, 0], [0, 0, 9, 0], [0, 0, 0, -36]])"};
+        kParams,
+        "let waist = quadric([[4, 0, 0, 0], [0, 4, 0, 0], [0, 0, -1, 0], [0, 0, 0, -100]])\n"
+        "(waist & block(24, 24, 40, center: true)).paint(\"cadetblue\")"};
     return kSchema;
 }
 

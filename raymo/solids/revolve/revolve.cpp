@@ -199,7 +199,9 @@ const Schema& Revolve::schema() {
               .min = 0.0,
               .fallback = 360.0}};
     static const Schema kSchema{"revolve", "A contour turned about the z axis.", kParams,
-                                "revolve(polygon([(4, 0), (10, 0), (4, 12)]), angle: 270)"};
+                                "let vase = bspline([(0, 0), (9, 0), (12, 8), (3, 15), (4, 22), "
+                                "(7, 26)], ends: \"clamped\")\n"
+                                "revolve(vase, angle: 270).paint(\"peru\")"};
     return kSchema;
 }
 

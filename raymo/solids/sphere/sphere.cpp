@@ -42,7 +42,8 @@ const Schema& Sphere::schema() {
                                                     .doc = "radius",
                                                     .min = 0.0,
                                                     .diameter = "d"}};
-    static const Schema kSchema{"sphere", "A ball about the origin.", kParams, "sphere(10)"};
+    static const Schema kSchema{"sphere", "A ball about the origin.", kParams,
+                                "sphere(10).paint(\"tomato\")"};
     return kSchema;
 }
 

@@ -138,7 +138,10 @@ const Schema& Sweep::schema() {
               .choices = kCapWords}};
     static const Schema kSchema{
         "sweep", "All that a ball touches that runs along a path; its radius may change.", kParams,
-        "sweep(path([(0, 0, 0), (10, 0, 5), (20, 5, 0), (25, 0, 0)], radius: 2))"};
+        "let hook = path([(0, 0, 0, 2), (0, 0, 24, 2), (20, 0, 28, 5), (30, 0, 4, 4), (12, 0, 0, "
+        "1)],\n"
+        "                ends: \"clamped\")\n"
+        "sweep(hook).paint(\"slateblue\")"};
     return kSchema;
 }
 

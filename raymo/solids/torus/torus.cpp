@@ -76,7 +76,8 @@ const Schema& Torus::schema() {
               .doc = "of the tube; larger than R it gives the filled spindle",
               .min = 0.0,
               .diameter = "d"}};
-    static const Schema kSchema{"torus", "A ring about the z axis.", kParams, "torus(R: 20, r: 5)"};
+    static const Schema kSchema{"torus", "A ring about the z axis.", kParams,
+                                "torus(R: 20, r: 6).paint(\"mediumpurple\")"};
     return kSchema;
 }
 
