@@ -9,6 +9,7 @@
 #include "raymo/curves/bernstein.hpp"
 #include "raymo/math/lanes.hpp"
 #include "raymo/math/targets.hpp"
+#include "raymo/math/tolerance.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace raymo::bench {
@@ -25,12 +26,13 @@ HWY_INLINE LaneCounts count(const double* c, std::size_t polynomials) {
         for (int lane = 0; lane < 8; lane += kLanes) {
             Lanes p[N + 1];
             for (int i = 0; i <= N; ++i) p[i] = load(block + 8 * i + lane);
-            const auto told = lane_crossings<N, Lanes, Mask>(p, Lanes(0.0));
+            const auto told = lane_signs<N, Mask>(p, Lanes(0.0));
+            const Lanes u = lane_any(told.one) ? lane_crossing<N>(p, told.one) : Lanes(0.5);
             counts.none += static_cast<std::size_t>(__builtin_popcount(bits(told.none)));
             counts.one += static_cast<std::size_t>(__builtin_popcount(bits(told.one)));
-            double u[8];
-            store(told.u, u);
-            for (int i = 0; i < kLanes; ++i) counts.sum += u[i];
+            double place[8];
+            store(lane_select(told.one, u, Lanes(0.5)), place);
+            for (int i = 0; i < kLanes; ++i) counts.sum += place[i];
         }
     }
     return counts;

@@ -3,13 +3,41 @@
 //
 // What is decided is what find_roots decides at once, and the crossing is that of crossing_of (curves/crossing.hpp, where the
 // steps are explained) bit for bit: the operations are the same in the same order. What is neither needs find_roots.
-template <class R, class M>
-struct LaneCrossing {
+template <class M>
+struct LaneSigns {
     M none;   ///< certainly no root
     M one;    ///< certainly one crossing, and nothing else
-    M rises;  ///< from negative to positive, where there is one
-    R u;      ///< its place, where there is one
+    M rises;  ///< negative at 0: from negative to positive, where there is one crossing
 };
+
+/// Crossings in two halves of a part of [0, 1].
+template <class R, class M>
+struct LanePair {
+    M none;           ///< certainly no root
+    M two;            ///< certainly two crossings, and nothing else
+    R first, second;  ///< their places, where there are two
+};
+
+/// A cubic and its derivative at one place.
+template <class R>
+struct LaneJet {
+    R value, slope;
+};
+template <class R>
+RAYMO_INLINE LaneJet<R> lane_jet(const R (&c)[4], R u) {
+    const R v = R(1.0) - u;
+    const R a = v * c[0] + u * c[1];
+    const R b = v * c[1] + u * c[2];
+    const R d = v * c[2] + u * c[3];
+    const R first = v * a + u * b;
+    const R second = v * b + u * d;
+    return {v * first + u * second, R(3.0) * (second - first)};
+}
+template <class R>
+RAYMO_INLINE LaneJet<R> lane_jet(const std::array<double, 4>& c, R u) {
+    const R all[4] = {R(c[0]), R(c[1]), R(c[2]), R(c[3])};
+    return lane_jet(all, u);
+}
 
 /// Sum of b[i] s^i, i <= K, even and odd powers side by side; t = s^2.
 template <int K, class R>
@@ -104,8 +132,8 @@ RAYMO_INLINE R lane_crossing(const R (&c)[N + 1], M active) {
 }
 
 /// `noise` (>= 0, finite) as in find_roots; coefficients of at most 2^1000.
-template <int N, class R, class M>
-RAYMO_INLINE LaneCrossing<R, M> lane_crossings(const R (&c)[N + 1], R noise) {
+template <int N, class M, class R>
+RAYMO_INLINE LaneSigns<M> lane_signs(const R (&c)[N + 1], R noise) {
     const R minus = R(0.0) - noise;
     const M rises = c[0] < R(0.0);
     const M ends_negative = c[N] < R(0.0);
@@ -133,13 +161,69 @@ RAYMO_INLINE LaneCrossing<R, M> lane_crossings(const R (&c)[N + 1], R noise) {
         negative = now_negative;
         positive = now_positive;
     }
-    LaneCrossing<R, M> out;
+    LaneSigns<M> out;
     out.none = lane_or(above, below);
     out.rises = rises;
     out.one = lane_and(lane_not(out.none),
                        lane_or(lane_and(lane_and(rises, lane_not(ends_negative)), lane_not(back)),
                                lane_and(falls, lane_not(forth))));
-    out.u = R(0.5);
-    if (lane_any(out.one)) out.u = lane_crossing<N>(c, out.one);
+    return out;
+}
+
+/// Halvings of lane_pair, at most.
+inline constexpr int kPairHalvings = 4;
+
+/// Looks for two crossings, or none, where lane_signs tells neither, in the lanes that are `active`. What it does not find
+/// after a few halvings needs find_roots.
+template <int N, class R, class M>
+RAYMO_INLINE LanePair<R, M> lane_pair(const R (&c)[N + 1], R noise, M active) {
+    R part[N + 1], low[N + 1], high[N + 1];
+    R size(0.0);
+    for (int i = 0; i <= N; ++i) {
+        part[i] = low[i] = high[i] = c[i];
+        size = lane_max(size, lane_abs(c[i]));
+    }
+    // Each halving is N means, which are wrong by a unit roundoff each.
+    noise = noise + R(2.0 * N * kPairHalvings * kUnitRoundoff) * size;
+    R from(0.0), middle(0.0), to(0.0);  // of the two halves
+    R lo(0.0);
+    double width = 1.0;
+    LanePair<R, M> out;
+    out.none = out.two = lane_and(active, lane_not(active));
+    for (int depth = 0; depth < kPairHalvings && lane_any(active); ++depth) {
+        R left[N + 1];
+        left[0] = part[0];
+        for (int n = N; n > 0; --n) {
+            for (int i = 0; i < n; ++i) part[i] = R(0.5) * (part[i] + part[i + 1]);
+            left[N + 1 - n] = part[0];
+        }
+        width *= 0.5;
+        const LaneSigns<M> first = lane_signs<N, M>(left, noise);
+        const LaneSigns<M> second = lane_signs<N, M>(part, noise);
+        out.none = lane_or(out.none, lane_and(active, lane_and(first.none, second.none)));
+        const M two = lane_and(active, lane_and(first.one, second.one));
+        const M to_left =
+            lane_and(lane_and(active, second.none), lane_not(lane_or(first.none, first.one)));
+        const M to_right =
+            lane_and(lane_and(active, first.none), lane_not(lane_or(second.none, second.one)));
+        if (lane_any(two)) {
+            out.two = lane_or(out.two, two);
+            for (int i = 0; i <= N; ++i) {
+                low[i] = lane_select(two, left[i], low[i]);
+                high[i] = lane_select(two, part[i], high[i]);
+            }
+            from = lane_select(two, lo, from);
+            middle = lane_select(two, lo + R(width), middle);
+            to = lane_select(two, lo + R(width + width), to);
+        }
+        active = lane_or(to_left, to_right);
+        for (int i = 0; i <= N; ++i) part[i] = lane_select(to_left, left[i], part[i]);
+        lo = lane_select(to_right, lo + R(width), lo);
+    }
+    out.first = out.second = R(0.5);
+    if (lane_any(out.two)) {
+        out.first = from + (middle - from) * lane_crossing<N>(low, out.two);
+        out.second = middle + (to - middle) * lane_crossing<N>(high, out.two);
+    }
     return out;
 }

@@ -174,6 +174,13 @@ void Region::add_curve(const Curve& curve, Vec2 centre, double scale, bool besid
         piece.x[3] = next.x[0];
         piece.y[3] = next.y[0];
     }
+    for (std::uint32_t i = first; i < end; ++i) {
+        Piece& piece = pieces_[i];
+        for (const auto& c : {piece.x, piece.y, piece.w}) {
+            for (const std::size_t k : {0U, 1U})
+                piece.bend = std::max(piece.bend, std::fabs(c[k] - 2.0 * c[k + 1] + c[k + 2]));
+        }
+    }
     if (first < end) number_runs(first);
 }
 

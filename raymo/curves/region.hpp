@@ -24,10 +24,19 @@ struct Piece : Span2 {
     std::uint32_t next = 0;
     std::uint32_t previous = 0;  ///< and the one that ends where this begins
     std::uint32_t run = 0;  ///< number of the smooth stretch between two corners that it is part of
+    double bend = 0.0;      ///< largest second difference of its coefficients
 };
 
 class Region {
 public:
+    /// Of the tree of boxes. Nodes stand before what is below them.
+    struct Node {
+        Box2 box;
+        std::uint32_t skip = 0;   ///< node to go on with when the box is missed
+        std::uint32_t first = 0;  ///< pieces
+        std::uint32_t count = 0;  ///< 0: an inner node
+    };
+
     /// Made from closed curves, by p -> (p - centre) scale. `scale` should be a power of two, so that it rounds nothing.
     /// Error: bad_argument when no point is enclosed or a coordinate is not finite. Cost: about 1 us a span.
     [[nodiscard]] static Result<std::shared_ptr<const Region>> make(const Outline& outline,
@@ -39,6 +48,7 @@ public:
         const Outline& outline, Vec2 centre, double scale);
 
     [[nodiscard]] const std::vector<Piece>& pieces() const { return pieces_; }
+    [[nodiscard]] const std::vector<Node>& nodes() const { return nodes_; }
     [[nodiscard]] Fill fill() const { return fill_; }
     /// Whether a point is inside about which the curves turn `winding` times.
     [[nodiscard]] bool encloses(int winding) const {
@@ -81,13 +91,6 @@ public:
     friend bool operator==(const Region& a, const Region& b);
 
 private:
-    struct Node {
-        Box2 box;
-        std::uint32_t skip = 0;   ///< node to go on with when the box is missed
-        std::uint32_t first = 0;  ///< pieces
-        std::uint32_t count = 0;  ///< 0: an inner node
-    };
-
     [[nodiscard]] static Result<std::shared_ptr<const Region>> make(const Outline& outline,
                                                                     Vec2 centre, double scale,
                                                                     bool beside_axis);

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "raymo/math/lanes.hpp"
+#include "raymo/math/tolerance.hpp"
 
 namespace raymo::curves {
 namespace {
@@ -147,6 +148,9 @@ void compare_lanes() {
     std::uniform_real_distribution<double> any(-1.0, 1.0);
     int none = 0;
     int one = 0;
+    int no_pair = 0;
+    int two = 0;
+    int touches = 0;
     for (int k = 0; k < 30000; ++k) {
         Bernstein<N> p[4];
         Four c[N + 1];
@@ -160,11 +164,14 @@ void compare_lanes() {
             }
         }
         const double noise = k % 5 == 0 ? 1e-9 : 0.0;
-        const auto told = lane_crossings<N, Four, Mask4>(c, Four(noise));
+        const auto told = lane_signs<N, Mask4>(c, Four(noise));
+        const Four u = lane_crossing<N>(c, told.one);
+        const Mask4 neither = lane_not(lane_or(told.none, told.one));
+        const auto pair = lane_pair<N>(c, Four(noise), neither);
         for (std::size_t lane = 0; lane < 4; ++lane) {
             double alone[N + 1];
             std::copy_n(p[lane].begin(), N + 1, alone);
-            const auto single = lane_crossings<N, double, bool>(alone, noise);
+            const auto single = lane_signs<N, bool>(alone, noise);
             REQUIRE(single.none == told.none.m[lane]);
             REQUIRE(single.one == told.one.m[lane]);
             RootList<N> list;
@@ -179,14 +186,42 @@ void compare_lanes() {
                 const Root& root = list.root[0];
                 REQUIRE(root.crosses);
                 REQUIRE(root.rises == told.rises.m[lane]);
-                REQUIRE(root.u == told.u.v[lane]);
-                REQUIRE(root.u == single.u);
-                REQUIRE(crossing_of<N>(p[lane]) == single.u);
+                REQUIRE(root.u == u.v[lane]);
+                REQUIRE(root.u == lane_crossing<N>(alone, true));
+                REQUIRE(crossing_of<N>(p[lane]) == root.u);
             }
+            if (!neither.m[lane]) continue;
+            REQUIRE_FALSE((pair.none.m[lane] && pair.two.m[lane]));
+            if (pair.none.m[lane]) {
+                ++no_pair;
+                REQUIRE(list.count == 0);
+            }
+            if (pair.two.m[lane]) {
+                ++two;
+                // A minimum that is just below -noise may be a touch with the little that find_roots adds to it.
+                if (list.count == 1 && !list.root[0].crosses) {
+                    ++touches;
+                    continue;
+                }
+                REQUIRE(list.count == 2);
+                REQUIRE(list.root[0].crosses);
+                REQUIRE(list.root[0].rises == told.rises.m[lane]);
+                REQUIRE(std::fabs(list.root[0].u - pair.first.v[lane]) <= 1e-12);
+                REQUIRE(std::fabs(list.root[1].u - pair.second.v[lane]) <= 1e-12);
+            }
+            const auto same = lane_pair<N>(alone, noise, true);
+            REQUIRE(same.none == pair.none.m[lane]);
+            REQUIRE(same.two == pair.two.m[lane]);
+            if (!same.two) continue;
+            REQUIRE(same.first == pair.first.v[lane]);
+            REQUIRE(same.second == pair.second.v[lane]);
         }
     }
     CHECK(none > 1000);
     CHECK(one > 1000);
+    CHECK(no_pair > 1000);
+    CHECK(two > 1000);
+    CHECK(touches < two / 10);
 }
 
 TEST_CASE("several polynomials at a time give the same bits as one") {

@@ -10,6 +10,7 @@ using raymo::lane_abs;
 using raymo::lane_and;
 using raymo::lane_any;
 using raymo::lane_copysign;
+using raymo::lane_fma;
 using raymo::lane_max;
 using raymo::lane_min;
 using raymo::lane_not;
@@ -39,6 +40,18 @@ HWY_INLINE Mask operator>=(Lanes a, Lanes b) { return {hn::Ge(a.v, b.v)}; }
 HWY_INLINE Mask operator==(Lanes a, Lanes b) { return {hn::Eq(a.v, b.v)}; }
 HWY_INLINE Lanes lane_sqrt(Lanes a) { return Lanes(hn::Sqrt(a.v)); }
 HWY_INLINE Lanes lane_abs(Lanes a) { return Lanes(hn::Abs(a.v)); }
+HWY_INLINE Lanes lane_fma(Lanes a, Lanes b, Lanes c) {
+#if HWY_NATIVE_FMA
+    return Lanes(hn::MulAdd(a.v, b.v, c.v));
+#else
+    double x[8], y[8], z[8];
+    hn::StoreU(a.v, D(), x);
+    hn::StoreU(b.v, D(), y);
+    hn::StoreU(c.v, D(), z);
+    for (int i = 0; i < kLanes; ++i) x[i] = raymo::lane_fma(x[i], y[i], z[i]);
+    return Lanes(hn::LoadU(D(), x));
+#endif
+}
 HWY_INLINE Lanes lane_select(Mask mask, Lanes yes, Lanes no) {
     return Lanes(hn::IfThenElse(mask.m, yes.v, no.v));
 }

@@ -14,6 +14,8 @@
 namespace raymo {
 
 [[nodiscard]] inline double lane_sqrt(double a) { return std::sqrt(a); }
+/// a b + c, rounded once.
+[[nodiscard]] inline double lane_fma(double a, double b, double c) { return std::fma(a, b, c); }
 [[nodiscard]] inline double lane_abs(double a) { return std::fabs(a); }
 /// a < b ? a : b, so the second operand where one is NaN.
 [[nodiscard]] constexpr double lane_min(double a, double b) { return a < b ? a : b; }

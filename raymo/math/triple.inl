@@ -24,3 +24,26 @@ template <class R>
 RAYMO_INLINE R dot(Triple<R> a, Triple<R> b) {
     return a.x * b.x + a.y * b.y + a.z * b.z;
 }
+template <class R>
+RAYMO_INLINE Triple<R> cross(Triple<R> a, Triple<R> b) {
+    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+/// As in math/accurate.hpp.
+template <class R>
+RAYMO_INLINE R difference_of_products(R a, R b, R c, R d) {
+    const R cd = c * d;
+    return lane_fma(a, b, R(0.0) - cd) + lane_fma(R(0.0) - c, d, cd);
+}
+template <class R>
+RAYMO_INLINE Triple<R> accurate_cross(Triple<R> a, Triple<R> b) {
+    return {difference_of_products(a.y, b.z, a.z, b.y), difference_of_products(a.z, b.x, a.x, b.z),
+            difference_of_products(a.x, b.y, a.y, b.x)};
+}
+template <class R>
+RAYMO_INLINE Triple<R> abs(Triple<R> a) {
+    return {lane_abs(a.x), lane_abs(a.y), lane_abs(a.z)};
+}
+template <class R>
+RAYMO_INLINE R max_norm(Triple<R> a) {
+    return lane_max(lane_abs(a.x), lane_max(lane_abs(a.y), lane_abs(a.z)));
+}
