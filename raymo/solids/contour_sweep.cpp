@@ -8,11 +8,15 @@
 #include "raymo/math/lanes.hpp"
 #include "raymo/math/tolerance.hpp"
 #include "raymo/solids/crossings.hpp"
+#include "raymo/solids/lane_kernels.hpp"
 
 namespace raymo::solids {
 namespace {
 
-#include "raymo/solids/interval.inl"
+#include "raymo/math/triple.inl"
+#include "raymo/solids/swept_kernels.inl"
+//
+#include "raymo/solids/contour_sweep.inl"
 
 using curves::Piece;
 using curves::Region;
@@ -22,12 +26,6 @@ using curves::value_at;
 /// Faces of the ends.
 constexpr std::uint16_t kBottom = 0;
 constexpr std::uint16_t kTop = 1;
-
-/// A ray that stays within this many times its error of one point of the section is taken to be at that point.
-constexpr double kStays = 1024.0;
-
-/// A crossing that may lie anywhere in more than this part of a piece is followed.
-constexpr double kNarrow = 0.25;
 
 /// Pieces that a grazing ray is followed along, at most.
 constexpr int kMostFollowed = 6;
@@ -130,7 +128,7 @@ private:
             bend = std::max(bend, max_norm(control(piece, k) - control(piece, k + 1) * 2.0 +
                                            control(piece, k + 2)));
         }
-        if (!(24.0 * bend * du < max_norm(dp) && df * df > 8.0 * ddf * off && du < kNarrow &&
+        if (!(24.0 * bend * du < max_norm(dp) && df * df > 8.0 * ddf * off && du < kSectionNarrow &&
               error < Aabb::kInf)) {
             follow({s, s, s, turn, piece.run}, i, u, 2.0 * off);
             return;
@@ -226,6 +224,17 @@ private:
 }  // namespace
 
 void ContourSweep::spans(const LocalRay<double>& ray, SpanList& out) const {
+    LaneSpans<double, bool, kSweptSpans> lanes;
+    bool left_over = false;
+    const int count = contour_sweep_spans(*region_, ratio_, ray, true, lanes, left_over);
+    if (left_over) {
+        spans_in_full(ray, out);
+    } else {
+        append(lanes, count, out);
+    }
+}
+
+void ContourSweep::spans_in_full(const LocalRay<double>& ray, SpanList& out) const {
     const double g = shrink();
     const Vec3 a{ray.ox, ray.oy, middle() - g * ray.oz};
     const Vec3 b{ray.dx, ray.dy, -g * ray.dz};
@@ -261,7 +270,7 @@ void ContourSweep::spans(const LocalRay<double>& ray, SpanList& out) const {
     };
 
     const Vec3 error = e + Vec3{1.0, 1.0, 1.0} * (16.0 * kUnitRoundoff);
-    if (max_norm(cross(a, b)) <= kStays * max_norm(error) * length) {
+    if (max_norm(cross(a, b)) <= kSectionStays * max_norm(error) * length) {
         if (std::fabs(ray.dz) <= 0x1p-20 * length) {  // at the height of the tip
             if (std::fabs(ray.oz) <= 1.0 + ray.ez) out.set_degenerate();
             return;
@@ -269,7 +278,7 @@ void ContourSweep::spans(const LocalRay<double>& ray, SpanList& out) const {
         // Where q = 1 it is asked about. From there to q the ray moves by less than off / q in the section.
         const double base = (-1.0 - ray.oz) / ray.dz;
         const Vec3 p = a + b * base;
-        const double off = 8.0 * kStays * max_norm(error);
+        const double off = 8.0 * kSectionStays * max_norm(error);
         const bool to_tip = ratio_ < std::sqrt(off);
         const double margin = to_tip ? std::sqrt(off) : off / ratio_;
         const Side side = region_->where({p.x / p.z, p.y / p.z}, {margin, margin});
@@ -313,6 +322,13 @@ Aabb ContourSweep::bounds(const Affine& map) const {
 }
 
 Vec3 ContourSweep::normal(Vec3 p, std::uint16_t face) const {
+    Triple<double> n{p.x, p.y, p.z};
+    if (contour_sweep_normals(*region_, ratio_, static_cast<double>(face), true, n))
+        return normal_in_full(p, face);
+    return {n.x, n.y, n.z};
+}
+
+Vec3 ContourSweep::normal_in_full(Vec3 p, std::uint16_t face) const {
     if (face == kBottom) return {0.0, 0.0, -1.0};
     if (face == kTop) return {0.0, 0.0, 1.0};
     const std::uint32_t wall = face - kFirstWall;

@@ -30,6 +30,10 @@
 
 namespace raymo::solids {
 
+struct RayBlock;
+struct SpanBlock;
+struct PlaceBlock;
+
 class ContourSweep {
 public:
     ContourSweep() = default;
@@ -39,7 +43,13 @@ public:
 
     [[nodiscard]] Aabb bounds(const Affine& map) const;
     void spans(const LocalRay<double>& ray, SpanList& out) const;
+    void spans(const RayBlock& rays, std::uint32_t asked, SpanBlock& out) const;
+    /// The same for rays that are not plain (contour_sweep.inl); right for all, but slower.
+    void spans_in_full(const LocalRay<double>& ray, SpanList& out) const;
     [[nodiscard]] Vec3 normal(Vec3 p, std::uint16_t face) const;
+    void normals(PlaceBlock& places, std::uint32_t asked) const;
+    /// The same for points that are not on the wall that `face` tells, or where it has no tangent.
+    [[nodiscard]] Vec3 normal_in_full(Vec3 p, std::uint16_t face) const;
     [[nodiscard]] Where where(Vec3 p, Vec3 e) const;
     [[nodiscard]] std::span<const std::string_view> faces() const;
     [[nodiscard]] const curves::Region& region() const { return *region_; }

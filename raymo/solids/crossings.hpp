@@ -19,8 +19,12 @@ inline constexpr std::uint32_t kFirstWall = 2;
 /// So many stretches have faces of their own; beyond, they are numbered again.
 inline constexpr std::uint32_t kMostWalls = (0xffffU - kFirstWall) / 2;
 
-[[nodiscard]] inline std::uint16_t wall_face(std::uint32_t run, bool left) {
-    return static_cast<std::uint16_t>(kFirstWall + 2 * (run % kMostWalls) + (left ? 1U : 0U));
+/// Of the right side of the contour; that of the left side follows.
+[[nodiscard]] constexpr std::uint16_t right_wall(std::uint32_t run) {
+    return static_cast<std::uint16_t>(kFirstWall + 2 * (run % kMostWalls));
+}
+[[nodiscard]] constexpr std::uint16_t wall_face(std::uint32_t run, bool left) {
+    return static_cast<std::uint16_t>(right_wall(run) + (left ? 1U : 0U));
 }
 
 struct Crossing {

@@ -1,6 +1,6 @@
-// All kernels that work on several rays at once, to be included inside a namespace of one's own,
-// once per instruction set. Needs <limits>, math/tolerance.hpp, solids/span.hpp, and the lane_...
-// functions for the types R and M in use.
+// All kernels that are computed within the walk, for several rays at once, to be included inside a namespace of one's own,
+// once per instruction set. Needs <limits>, math/tolerance.hpp, solids/span.hpp, and the lane_... functions for the types R
+// and M in use.
 #include "raymo/solids/interval.inl"
 //
 #include "raymo/solids/block/kernel.inl"

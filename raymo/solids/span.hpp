@@ -84,6 +84,9 @@ private:
     double touch_hi_ = 0.0;
 };
 
+/// Spans that the kernels of swept contours give at most, several rays at once; rays with more are left over.
+inline constexpr int kSweptSpans = 4;
+
 /// Up to N spans of as many rays as R has lanes. `valid[i]` says for which lanes span i exists; `face` is a small whole
 /// number kept in R. M is R's mask type (bool for double).
 template <class R, class M, int N>

@@ -7,31 +7,19 @@
 #include "raymo/curves/samples.hpp"
 #include "raymo/math/lanes.hpp"
 #include "raymo/math/tolerance.hpp"
+#include "raymo/solids/lane_kernels.hpp"
 #include "raymo/solids/revolve/profile_line.hpp"
 
 namespace raymo::solids {
 namespace {
 
-#include "raymo/solids/interval.inl"
+#include "raymo/math/triple.inl"
+#include "raymo/solids/swept_kernels.inl"
+//
+#include "raymo/solids/revolve/kernel.inl"
 
 constexpr std::uint16_t kStart = 0;
 constexpr std::uint16_t kEnd = 1;
-
-/// Clips to the side n.x <= 0 of a plane through the axis.
-void clip_side(Window<double>& w, const LocalRay<double>& ray, Vec3 n, double face) {
-    const double offset = n.x * ray.ox + n.y * ray.oy;
-    const double along = n.x * ray.dx + n.y * ray.dy;
-    const double slack = std::fabs(n.x) * ray.ex + std::fabs(n.y) * ray.ey +
-                         8.0 * kUnitRoundoff * (std::fabs(ray.ox) + std::fabs(ray.oy) + 1.0);
-    const double slope = lane_copysign(std::max(std::fabs(along), least_direction(ray)), along);
-    const double s = -offset / slope;
-    const double error = slack / std::fabs(slope);
-    if (slope > 0.0) {
-        clip_exit<double>(w, s, error, face);
-    } else {
-        clip_enter<double>(w, s, error, face);
-    }
-}
 
 SpanEnd entry(const LaneSpans<double, bool, 1>& s) {
     return {s.enter[0], s.enter_error[0], static_cast<std::uint16_t>(s.enter_face[0])};
@@ -64,6 +52,17 @@ Revolve::Kernel::Kernel(curves::RegionPtr region, double angle)
 }
 
 void Revolve::Kernel::spans(const LocalRay<double>& ray, SpanList& out) const {
+    LaneSpans<double, bool, kSweptSpans> lanes;
+    bool left_over = false;
+    const int count = revolve_spans(*region_, angle_, end_, ray, true, lanes, left_over);
+    if (left_over) {
+        spans_in_full(ray, out);
+    } else {
+        append(lanes, count, out);
+    }
+}
+
+void Revolve::Kernel::spans_in_full(const LocalRay<double>& ray, SpanList& out) const {
     const double length = std::sqrt(ray.dd);
     Crossings crossings;
     ProfileLine line(*region_, ray, crossings);
@@ -99,8 +98,8 @@ void Revolve::Kernel::spans(const LocalRay<double>& ray, SpanList& out) const {
         // As far as the solid may reach: ends at infinity have no error to be computed with.
         clip_enter<double>(w, -4.0 / length, 0.0, kStart);
         clip_exit<double>(w, 4.0 / length, 0.0, kEnd);
-        clip_side(w, ray, -start_, kStart);
-        clip_side(w, ray, -end_, kEnd);
+        clip_side(w, ray, -start_.x, -start_.y, kStart);
+        clip_side(w, ray, -end_.x, -end_.y, kEnd);
         close_window(w, ray, ray.dd > 0.0, 0, gap);
     }
     crossings.resolve(
@@ -108,8 +107,8 @@ void Revolve::Kernel::spans(const LocalRay<double>& ray, SpanList& out) const {
         [&](const SpanEnd& enter, const SpanEnd& exit) {
             Window<double> w = window_of(enter, exit);
             if (!is_whole() && convex) {
-                clip_side(w, ray, start_, kStart);
-                clip_side(w, ray, end_, kEnd);
+                clip_side(w, ray, start_.x, start_.y, kStart);
+                clip_side(w, ray, end_.x, end_.y, kEnd);
                 emit(w);
                 return;
             }
@@ -152,6 +151,13 @@ Aabb Revolve::Kernel::bounds(const Affine& map) const {
 }
 
 Vec3 Revolve::Kernel::normal(Vec3 p, std::uint16_t face) const {
+    Triple<double> n{p.x, p.y, p.z};
+    if (revolve_normals(*region_, end_, static_cast<double>(face), true, n))
+        return normal_in_full(p, face);
+    return {n.x, n.y, n.z};
+}
+
+Vec3 Revolve::Kernel::normal_in_full(Vec3 p, std::uint16_t face) const {
     if (face == kStart) return start_;
     if (face == kEnd) return end_;
     const std::uint32_t wall = face - kFirstWall;

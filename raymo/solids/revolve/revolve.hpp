@@ -12,6 +12,10 @@
 
 namespace raymo::solids {
 
+struct RayBlock;
+struct SpanBlock;
+struct PlaceBlock;
+
 struct Revolve {
     class Kernel {
     public:
@@ -20,12 +24,20 @@ struct Revolve {
         Kernel(curves::RegionPtr region, double angle);
         [[nodiscard]] Aabb bounds(const Affine& map) const;
         void spans(const LocalRay<double>& ray, SpanList& out) const;
+        void spans(const RayBlock& rays, std::uint32_t asked, SpanBlock& out) const;
+        /// The same for rays that are not plain (kernel.inl); right for all, but slower.
+        void spans_in_full(const LocalRay<double>& ray, SpanList& out) const;
         [[nodiscard]] Vec3 normal(Vec3 p, std::uint16_t face) const;
+        void normals(PlaceBlock& places, std::uint32_t asked) const;
+        /// The same for points that are not on the wall that `face` tells, or where it has no tangent.
+        [[nodiscard]] Vec3 normal_in_full(Vec3 p, std::uint16_t face) const;
         [[nodiscard]] Where where(Vec3 p, Vec3 e) const;
         [[nodiscard]] std::span<const std::string_view> faces() const;
         [[nodiscard]] const curves::Region& region() const { return *region_; }
         [[nodiscard]] double bytes() const { return region_->bytes(); }
         [[nodiscard]] double angle() const { return angle_; }
+        /// Of the cut where the turn ends, outwards.
+        [[nodiscard]] Vec3 end_normal() const { return end_; }
 
         friend bool operator==(const Kernel& a, const Kernel& b) {
             return a.angle_ == b.angle_ && (a.region_ == b.region_ || *a.region_ == *b.region_);
