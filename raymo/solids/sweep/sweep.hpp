@@ -23,6 +23,10 @@
 
 namespace raymo::solids {
 
+struct RayBlock;
+struct SpanBlock;
+struct PlaceBlock;
+
 struct Sweep {
     class Kernel {
     public:
@@ -30,7 +34,11 @@ struct Sweep {
             : spheres_(std::move(spheres)) {}
         [[nodiscard]] Aabb bounds(const Affine& map) const;
         void spans(const LocalRay<double>& ray, SpanList& out) const;
+        void spans(const RayBlock& rays, std::uint32_t asked, SpanBlock& out) const;
+        /// The same for rays that are not plain (kernel.inl); right for all, but slower.
+        void spans_in_full(const LocalRay<double>& ray, SpanList& out) const;
         [[nodiscard]] Vec3 normal(Vec3 p, std::uint16_t face) const;
+        void normals(PlaceBlock& places, std::uint32_t asked) const;
         [[nodiscard]] Where where(Vec3 p, Vec3 e) const;
         [[nodiscard]] std::span<const std::string_view> faces() const;
         [[nodiscard]] const SweptSpheres& spheres() const { return *spheres_; }

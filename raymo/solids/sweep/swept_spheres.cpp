@@ -8,7 +8,7 @@ namespace raymo::solids {
 namespace {
 
 /// Spans are halved at most so often.
-constexpr int kMostHalvings = 3;
+constexpr int kMostHalvings = 5;
 /// What opening one more box costs, beside looking at a piece.
 constexpr double kBoxCost = 0.15;
 

@@ -1,0 +1,505 @@
+// Spans of a sweep for one ray or several (see math/lanes.hpp), in the plain case: every piece that a ray may meet, or every
+// part of it after a few halvings, has one chord whose ends are single maxima, and chords meet for certain or keep
+// clear of each other. Other rays are left over for Sweep::Kernel::spans_in_full. The derivation, and the letters, are those of
+// chords.cpp and part.hpp. Included once per instruction set, after math/triple.inl and solids/interval.inl; needs
+// <limits>, math/tolerance.hpp, solids/span.hpp and solids/sweep/swept_spheres.hpp.
+
+/// Error of a place on the line, of a centre and of a radius, in the canonical frame, where all numbers are below 4: the cuts
+/// of the path (3 roundings a halving of numbers below 2, for each coordinate and the radius), the line's frame (4 relative
+/// ones), coordinates in it (5) and their values at a place (9), and lengths along the line (3).
+inline constexpr double kSweepOwnError = 64.0 * kUnitRoundoff;
+
+/// Halvings of a piece, at most, before a ray is left over.
+inline constexpr int kSweepHalvings = 3;
+
+/// Steps to a maximum, at most, before a ray is left over.
+inline constexpr int kSweepSteps = 14;
+
+/// A part of a piece in a frame about the lines: coefficients along them, beside, above, and the radius.
+template <class R>
+struct LaneCubics {
+    R tau[4], p[4], q[4], radius[4];
+};
+
+/// As SpherePlace.
+template <class R>
+struct LaneSphere {
+    R u, tau, tau1, tau2, disc, disc1, disc2, radius;
+};
+
+/// As ChordEnd.
+template <class R>
+struct LaneChordEnd {
+    R t, outer, inner, face;
+};
+
+template <class R, class M>
+RAYMO_INLINE LaneChordEnd<R> choose_end(M mask, const LaneChordEnd<R>& a,
+                                        const LaneChordEnd<R>& b) {
+    return {lane_select(mask, a.t, b.t), lane_select(mask, a.outer, b.outer),
+            lane_select(mask, a.inner, b.inner), lane_select(mask, a.face, b.face)};
+}
+
+/// Chords that are inside for certain, none of which shares such a place with another.
+template <class R, class M>
+struct LaneChords {
+    static constexpr int kMost = solids::kSweptSpans;
+
+    M rest;  ///< lines that are left over
+    M valid[kMost];
+    LaneChordEnd<R> lo[kMost], hi[kMost];
+
+    RAYMO_INLINE explicit LaneChords(M left_over) : rest(left_over) {
+        const LaneChordEnd<R> none{R(0.0), R(0.0), R(0.0), R(0.0)};
+        for (int i = 0; i < kMost; ++i) {
+            valid[i] = lane_and(left_over, lane_not(left_over));
+            lo[i] = hi[i] = none;
+        }
+    }
+
+    /// Whether all of [from, to] is known to be inside.
+    RAYMO_INLINE M covers(R from, R to) const {
+        M out = lane_and(valid[0], lane_not(valid[0]));
+        for (int i = 0; i < kMost; ++i) {
+            out =
+                lane_or(out, lane_and(valid[i], lane_and(lo[i].inner <= from, to <= hi[i].inner)));
+        }
+        return out;
+    }
+
+    RAYMO_INLINE void add(M there, LaneChordEnd<R> begin, LaneChordEnd<R> end) {
+        // What becomes longer may meet what it did not.
+        for (int pass = 0; pass < kMost; ++pass) {
+            M met = lane_and(there, lane_not(there));
+            for (int i = 0; i < kMost; ++i) {
+                const M both =
+                    lane_and(lane_and(there, valid[i]),
+                             lane_and(begin.inner <= hi[i].inner, lo[i].inner <= end.inner));
+                if (!lane_any(both)) continue;
+                const LaneChordEnd<R> first = choose_end(lo[i].t < begin.t, lo[i], begin);
+                const LaneChordEnd<R> last = choose_end(hi[i].t > end.t, hi[i], end);
+                begin = choose_end(both,
+                                   LaneChordEnd<R>{first.t, lane_min(begin.outer, lo[i].outer),
+                                                   lane_min(begin.inner, lo[i].inner), first.face},
+                                   begin);
+                end = choose_end(both,
+                                 LaneChordEnd<R>{last.t, lane_max(end.outer, hi[i].outer),
+                                                 lane_max(end.inner, hi[i].inner), last.face},
+                                 end);
+                valid[i] = lane_and(valid[i], lane_not(both));
+                met = lane_or(met, both);
+            }
+            if (!lane_any(met)) break;
+        }
+        for (int i = 0; i < kMost; ++i) {
+            const M free = lane_and(there, lane_not(valid[i]));
+            if (!lane_any(free)) continue;
+            lo[i] = choose_end(free, begin, lo[i]);
+            hi[i] = choose_end(free, end, hi[i]);
+            valid[i] = lane_or(valid[i], free);
+            there = lane_and(there, lane_not(free));
+        }
+        rest = lane_or(rest, there);
+    }
+
+    /// Puts the spans of the lines that are `asked` and not left over into `out`. `length`: of one s; `limit`: the largest
+    /// error that is not degenerate. Returns how many there are at most.
+    RAYMO_INLINE int spans(M asked, R length, R limit, LaneSpans<R, M, kMost>& out) {
+        const R inf(std::numeric_limits<double>::infinity());
+        for (int i = 0; i < kMost; ++i) {
+            lo[i].t = lane_select(valid[i], lo[i].t, inf);
+            lo[i].outer = lane_select(valid[i], lo[i].outer, inf);
+        }
+        for (int round = 0; round < kMost - 1; ++round) {
+            for (int i = 0; i + 1 < kMost - round; ++i) {
+                const M swap = lo[i + 1].t < lo[i].t;
+                if (!lane_any(swap)) continue;
+                const LaneChordEnd<R> begin = lo[i];
+                const LaneChordEnd<R> end = hi[i];
+                lo[i] = choose_end(swap, lo[i + 1], begin);
+                hi[i] = choose_end(swap, hi[i + 1], end);
+                lo[i + 1] = choose_end(swap, begin, lo[i + 1]);
+                hi[i + 1] = choose_end(swap, end, hi[i + 1]);
+            }
+        }
+        const R unit = R(1.0) / length;
+        int count = 0;
+        for (int i = 0; i < kMost; ++i) {
+            const M there = lane_and(asked, lo[i].t < inf);
+            if (!lane_any(there)) break;
+            const R enter_error = lane_max(lo[i].t - lo[i].outer, lo[i].inner - lo[i].t);
+            const R exit_error = lane_max(hi[i].outer - hi[i].t, hi[i].t - hi[i].inner);
+            M clear = lane_and(lane_max(enter_error, exit_error) <= limit,
+                               hi[i].t - lo[i].t > enter_error + exit_error);
+            if (i + 1 < kMost) clear = lane_and(clear, lo[i + 1].outer > hi[i].outer);
+            rest = lane_or(rest, lane_and(there, lane_not(clear)));
+            out.valid[i] = there;
+            out.enter[i] = lo[i].t * unit;
+            out.enter_error[i] = enter_error * unit;
+            out.enter_face[i] = lo[i].face;
+            out.exit[i] = hi[i].t * unit;
+            out.exit_error[i] = exit_error * unit;
+            out.exit_face[i] = hi[i].face;
+            ++count;
+        }
+        out.touched = out.degenerate = lane_and(asked, lane_not(asked));
+        for (int i = 0; i < count; ++i) out.valid[i] = lane_and(out.valid[i], lane_not(rest));
+        return count;
+    }
+};
+
+/// Value and derivatives of a cubic.
+template <class R>
+struct LaneBend {
+    R value, first, second;
+};
+template <class R>
+RAYMO_INLINE LaneBend<R> lane_bend(const R (&c)[4], R u, R v) {
+    const R a0 = v * c[0] + u * c[1];
+    const R a1 = v * c[1] + u * c[2];
+    const R a2 = v * c[2] + u * c[3];
+    const R b0 = v * a0 + u * a1;
+    const R b1 = v * a1 + u * a2;
+    return {v * b0 + u * b1, R(3.0) * (b1 - b0), R(6.0) * ((a2 - a1) - (a1 - a0))};
+}
+
+template <class R>
+RAYMO_INLINE LaneSphere<R> sphere_at(const LaneCubics<R>& c, R u) {
+    const R v = R(1.0) - u;
+    const LaneBend<R> tau = lane_bend(c.tau, u, v);
+    const LaneBend<R> p = lane_bend(c.p, u, v);
+    const LaneBend<R> q = lane_bend(c.q, u, v);
+    const LaneBend<R> a = lane_bend(c.radius, u, v);
+    const R two(2.0);
+    return {u,
+            tau.value,
+            tau.first,
+            tau.second,
+            a.value * a.value - p.value * p.value - q.value * q.value,
+            two * (a.value * a.first - p.value * p.first - q.value * q.first),
+            two * ((a.first * a.first - p.first * p.first - q.first * q.first) +
+                   (a.value * a.second - p.value * p.second - q.value * q.second)),
+            lane_abs(a.value)};
+}
+
+template <class R, class M>
+RAYMO_INLINE LaneSphere<R> choose_sphere(M mask, const LaneSphere<R>& a, const LaneSphere<R>& b) {
+    return {lane_select(mask, a.u, b.u),         lane_select(mask, a.tau, b.tau),
+            lane_select(mask, a.tau1, b.tau1),   lane_select(mask, a.tau2, b.tau2),
+            lane_select(mask, a.disc, b.disc),   lane_select(mask, a.disc1, b.disc1),
+            lane_select(mask, a.disc2, b.disc2), lane_select(mask, a.radius, b.radius)};
+}
+
+/// As PartBounds.
+template <class R, class M>
+struct LaneBounds {
+    R disc_least, disc_most, d1_least, d2_most;
+    R tau_least, tau_most, tau2_least, tau2_most;
+    R slack, rounding, wide;
+    M d1_rises;
+};
+
+template <class R>
+RAYMO_INLINE R slack_of(R radius, R error) {
+    return error * (R(2.0) * radius + error);
+}
+
+/// Lines in lengths, and frames about them.
+template <class R, class M>
+struct SweepLines {
+    Triple<R> o, along, side, up;
+    R error;  ///< of a place on it, of a centre and of a radius, together
+    LaneChords<R, M>& found;
+
+    /// Adds where the lines that are `asked` are inside a piece.
+    RAYMO_INLINE void meet(const solids::SweptPiece& piece, M asked) {
+        struct Part {
+            LaneCubics<R> c;
+            M there;
+            double u0, u1;
+            int depth;
+        };
+        Part open[kSweepHalvings + 2];
+        std::size_t count = 1;
+        for (int i = 0; i < 4; ++i) {
+            const auto& point = piece.cubics.c[static_cast<std::size_t>(i)];
+            const Triple<R> to{R(point[0]) - o.x, R(point[1]) - o.y, R(point[2]) - o.z};
+            open[0].c.tau[i] = dot(to, along);
+            open[0].c.p[i] = dot(to, side);
+            open[0].c.q[i] = dot(to, up);
+            open[0].c.radius[i] = R(point[3]);
+        }
+        const LaneCubics<R> whole = open[0].c;
+        open[0].there = asked;
+        open[0].u0 = 0.0;
+        open[0].u1 = 1.0;
+        open[0].depth = 0;
+        while (count > 0) {
+            const Part part = open[--count];
+            const LaneBounds<R, M> b = bounds_of(part.c, part.u1 - part.u0, part.depth);
+            M there = lane_and(part.there, b.disc_most > R(0.0) - (b.slack + b.rounding));
+            there = lane_and(there, lane_not(found.rest));
+            if (!lane_any(there)) continue;
+            if (piece.cut != 0) {
+                leave(there);
+                return;
+            }
+            there =
+                lane_and(there, lane_not(found.covers(b.tau_least - b.wide, b.tau_most + b.wide)));
+            const M positive = b.disc_least > R(4.0) * (b.slack + b.rounding);
+            const M single = lane_or(positive, lane_or(b.d2_most<R(0.0), b.d1_least> R(0.0)));
+            const R bend_first = bend_of(b, R(0.0) - b.tau2_least);
+            const R bend_last = bend_of(b, b.tau2_most);
+            const M plain = lane_and(lane_and(there, single),
+                                     lane_and(bend_first > R(0.0), bend_last > R(0.0)));
+            if (lane_any(plain))
+                join(piece, whole, part.u0, part.u1, b, bend_first, bend_last, plain);
+            there = lane_and(there, lane_not(plain));
+            if (!lane_any(there)) continue;
+            if (part.depth == kSweepHalvings) {
+                leave(there);
+                continue;
+            }
+            Part& right = open[count];
+            Part& left = open[count + 1];
+            halve(part.c.tau, left.c.tau, right.c.tau);
+            halve(part.c.p, left.c.p, right.c.p);
+            halve(part.c.q, left.c.q, right.c.q);
+            halve(part.c.radius, left.c.radius, right.c.radius);
+            left.u0 = part.u0;
+            left.u1 = right.u0 = 0.5 * (part.u0 + part.u1);
+            right.u1 = part.u1;
+            left.there = right.there = there;
+            left.depth = right.depth = part.depth + 1;
+            count += 2;
+        }
+    }
+
+private:
+    RAYMO_INLINE void leave(M lines) { found.rest = lane_or(found.rest, lines); }
+
+    RAYMO_INLINE static void halve(const R (&c)[4], R (&left)[4], R (&right)[4]) {
+        const R half(0.5);
+        const R a0 = half * (c[0] + c[1]);
+        const R a1 = half * (c[1] + c[2]);
+        const R a2 = half * (c[2] + c[3]);
+        const R b0 = half * (a0 + a1);
+        const R b1 = half * (a1 + a2);
+        left[0] = c[0];
+        left[1] = a0;
+        left[2] = b0;
+        left[3] = right[0] = half * (b0 + b1);
+        right[1] = b1;
+        right[2] = a2;
+        right[3] = c[3];
+    }
+
+    RAYMO_INLINE LaneBounds<R, M> bounds_of(const LaneCubics<R>& c, double width, int depth) const {
+        const R zero(0.0);
+        LaneBounds<R, M> b;
+        const R(&a)[4] = c.radius;
+        const R(&p)[4] = c.p;
+        const R(&q)[4] = c.q;
+        const auto pair = [&](int i, int j)
+                              RAYMO_INLINE_BODY { return a[i] * a[j] - p[i] * p[j] - q[i] * q[j]; };
+        const R disc[7] = {pair(0, 0),
+                           pair(0, 1),
+                           R(0.4) * pair(0, 2) + R(0.6) * pair(1, 1),
+                           R(0.1) * pair(0, 3) + R(0.9) * pair(1, 2),
+                           R(0.4) * pair(1, 3) + R(0.6) * pair(2, 2),
+                           pair(2, 3),
+                           pair(3, 3)};
+        R size = zero;
+        R radius = zero;
+        b.tau_least = b.tau_most = c.tau[0];
+        for (int i = 0; i < 4; ++i) {
+            size = lane_max(size, p[i] * p[i] + q[i] * q[i]);
+            radius = lane_max(radius, lane_abs(a[i]));
+            b.tau_least = lane_min(b.tau_least, c.tau[i]);
+            b.tau_most = lane_max(b.tau_most, c.tau[i]);
+        }
+        size = size + radius * radius;
+        b.rounding = R(8.0 * kUnitRoundoff * (1.0 + 0.5 * depth)) * size;
+        b.slack = slack_of(radius, error);
+        R low(0.0), high(0.0), bend(0.0), last(0.0);
+        b.disc_least = b.disc_most = disc[0];
+        for (int i = 0; i < 6; ++i) {
+            b.disc_least = lane_min(b.disc_least, disc[i + 1]);
+            b.disc_most = lane_max(b.disc_most, disc[i + 1]);
+            const R d = disc[i + 1] - disc[i];
+            low = i == 0 ? d : lane_min(low, d);
+            high = i == 0 ? d : lane_max(high, d);
+            if (i > 0) bend = i == 1 ? d - last : lane_max(bend, d - last);
+            last = d;
+        }
+        b.wide = lane_sqrt(lane_max(b.disc_most, zero) + b.slack + b.rounding);
+        const double scale = 1.0 / width;
+        const R two(2.0);
+        b.d1_rises = low > zero;
+        b.d1_least = R(6.0 * scale) * lane_max(low, lane_max(zero - high, two * b.rounding)) -
+                     R(12.0 * scale) * b.rounding;
+        b.d2_most = R(30.0 * scale * scale) * (bend + R(4.0) * b.rounding);
+        const R t0 = c.tau[1] - c.tau[0];
+        const R t1 = c.tau[2] - c.tau[1];
+        const R t2 = c.tau[3] - c.tau[2];
+        b.tau2_most = R(6.0 * scale * scale) * lane_max(t1 - t0, t2 - t1);
+        b.tau2_least = R(6.0 * scale * scale) * lane_min(t1 - t0, t2 - t1);
+        return b;
+    }
+
+    /// B; `turn`: the most that sign tau'' is.
+    RAYMO_INLINE static R bend_of(const LaneBounds<R, M>& b, R turn) {
+        const R zero(0.0);
+        const R m2 = b.d1_least * b.d1_least;
+        R h2 = lane_max(b.disc_most, b.slack);
+        h2 = lane_select(b.d2_most > zero, lane_min(h2, R(1.5) * m2 / b.d2_most), h2);
+        const R bend = (m2 - R(2.0) * h2 * b.d2_most) / (R(4.0) * h2 * lane_sqrt(h2)) - turn;
+        return lane_select(lane_and(h2 > zero, bend > R(0.125) * lane_abs(turn)), bend, zero);
+    }
+
+    /// The chord of a part that has one, of which both ends are single maxima.
+    RAYMO_INLINE void join(const solids::SweptPiece& piece, const LaneCubics<R>& whole, double u0,
+                           double u1, const LaneBounds<R, M>& b, R bend_first, R bend_last,
+                           M there) {
+        const R zero(0.0);
+        // The place of the largest disc, or nearly.
+        const M ends = b.d1_least > zero;
+        const M humped = lane_and(lane_not(ends), b.d2_most < zero);
+        R u = lane_select(ends, lane_select(b.d1_rises, R(u1), R(u0)), R(0.5 * (u0 + u1)));
+        LaneSphere<R> peak = sphere_at(whole, u);
+        R most = peak.disc;
+        M active = lane_and(there, humped);
+        for (int i = 0; i < 8 && lane_any(active); ++i) {
+            const M stays = u == lane_select(peak.disc1 > zero, R(u1), R(u0));
+            const R gain = peak.disc1 * peak.disc1 / (R(-2.0) * b.d2_most);
+            most = lane_select(lane_and(active, lane_not(stays)), peak.disc + gain, most);
+            const M near = gain <= R(0.05) * lane_max(peak.disc, b.slack);
+            active = lane_and(active, lane_not(lane_or(stays, near)));
+            if (!lane_any(active)) break;
+            const R next = u - peak.disc1 / lane_min(peak.disc2, b.d2_most);
+            u = lane_select(active, lane_min(lane_max(next, R(u0)), R(u1)), u);
+            const LaneSphere<R> at = sphere_at(whole, u);
+            peak = choose_sphere(active, at, peak);
+            most = lane_select(active, peak.disc, most);
+        }
+        there = lane_and(there, most > zero - b.slack);
+        const M met = peak.disc >= R(4.0) * b.slack;
+        leave(lane_and(there, lane_not(met)));
+        there = lane_and(there, met);
+        if (!lane_any(there)) return;
+        const LaneChordEnd<R> first = extremum(piece, whole, u0, u1, bend_first, peak, -1.0, there);
+        const LaneChordEnd<R> last = extremum(piece, whole, u0, u1, bend_last, peak, 1.0, there);
+        const M certain = first.inner <= last.inner;
+        leave(lane_and(there, lane_not(certain)));
+        found.add(lane_and(there, certain), first, last);
+    }
+
+    /// The largest sign tau + h.
+    RAYMO_INLINE LaneChordEnd<R> extremum(const solids::SweptPiece& piece,
+                                          const LaneCubics<R>& whole, double u0, double u1, R bend,
+                                          const LaneSphere<R>& peak, double sign, M there) {
+        const R zero(0.0);
+        const R one(1.0);
+        const R half(0.5);
+        const R s(sign);
+        R lo(u0);
+        R hi(u1);
+        LaneSphere<R> at = peak;
+        LaneSphere<R> good = peak;
+        R loss = zero;
+        M active = there;
+        const M never = lane_and(there, lane_not(there));
+        M lo_seen = never;
+        M hi_seen = never;
+        for (int i = 0;; ++i) {
+            // Beyond the chords: back half the way.
+            const M beyond = at.disc <= zero;
+            const M above = at.u > good.u;
+            const M down = lane_and(active, lane_and(beyond, above));
+            const M up_ = lane_and(active, lane_and(beyond, lane_not(above)));
+            hi = lane_select(down, at.u, hi);
+            lo = lane_select(up_, at.u, lo);
+            hi_seen = lane_or(hi_seen, down);
+            lo_seen = lane_or(lo_seen, up_);
+            const M here = lane_and(active, lane_not(beyond));
+            good = choose_sphere(here, at, good);
+            const R h = lane_sqrt(lane_max(at.disc, R(0x1p-1000)));
+            const R m = s * at.tau1;
+            const R slope = m + at.disc1 / (R(2.0) * h);
+            const M rises = slope > zero;
+            const M stops = lane_or(lane_and(at.u == R(u1), slope >= zero),
+                                    lane_and(at.u == R(u0), slope <= zero));
+            const R off = lane_select(stops, zero, slope * slope / (R(2.0) * bend));
+            loss = lane_select(here, off, loss);
+            const M arrives = lane_or(stops, off * h <= R(0x1p-12) * slack_of(at.radius, error));
+            active = lane_and(active, lane_not(lane_and(here, arrives)));
+            if (!lane_any(active)) break;
+            if (i == kSweepSteps) {
+                leave(active);
+                break;
+            }
+            const M forth = lane_and(here, rises);
+            const M back = lane_and(here, lane_not(rises));
+            lo = lane_select(forth, at.u, lo);
+            hi = lane_select(back, at.u, hi);
+            lo_seen = lane_or(lo_seen, forth);
+            hi_seen = lane_or(hi_seen, back);
+            const R c = R(-0.5) * (at.disc2 + R(2.0 * sign) * at.tau2 * h);
+            const R halfway = half * at.disc1 / c;
+            const R step =
+                m * lane_sqrt(
+                        lane_max((at.disc + half * halfway * at.disc1) / (c * (c + m * m)), zero));
+            R next = lane_select(c > zero, at.u + halfway + step, lane_select(rises, hi, lo));
+            next = lane_select(next < hi, next, lane_select(hi_seen, half * (at.u + hi), hi));
+            next = lane_select(next > lo, next, lane_select(lo_seen, half * (at.u + lo), lo));
+            next = lane_select(beyond, half * (at.u + good.u), next);
+            // Where no number lies between, there is nothing left to gain.
+            active = lane_and(active, lane_not(lane_and(here, next == at.u)));
+            at = sphere_at(whole, next);
+        }
+        const R h = lane_sqrt(lane_max(good.disc, R(0x1p-1000)));
+        const R t = s * good.tau + h;
+        const R e = error * (R(2.5) * good.radius + error);
+        const M clipped = lane_or(good.u == R(u0), good.u == R(u1));
+        const R wide = e / (R(2.0) * h);
+        const R outer = t + loss + lane_select(clipped, lane_min(wide, lane_sqrt(e)), wide);
+        // The highest sphere does for certain, too.
+        const R top = lane_sqrt(lane_max(peak.disc, R(0x1p-1000)));
+        const R inner =
+            lane_max(t - e / h, s * peak.tau + top - slack_of(peak.radius, error) / top);
+        R face = zero;
+        if (piece.begins) face = lane_select(good.u == zero, one, face);
+        if (piece.ends) face = lane_select(good.u == one, R(2.0), face);
+        return {s * t, s * outer, s * inner, face};
+    }
+};
+
+/// A frame about a direction of unit length [Duff17].
+template <class R>
+RAYMO_INLINE void lane_frame(const Triple<R>& along, Triple<R>& side, Triple<R>& up) {
+    const R one(1.0);
+    const R sign = lane_copysign(one, along.z);
+    const R a = R(-1.0) / (sign + along.z);
+    const R b = along.x * along.y * a;
+    side = {one + sign * along.x * along.x * a, sign * b, R(0.0) - sign * along.x};
+    up = {b, sign + along.y * along.y * a, R(0.0) - along.y};
+}
+
+template <class R, class M>
+RAYMO_INLINE SweepLines<R, M> sweep_lines(const LocalRay<R>& ray, LaneChords<R, M>& found) {
+    const R unit = R(1.0) / lane_sqrt(ray.dd);
+    SweepLines<R, M> out{{ray.ox, ray.oy, ray.oz},
+                         {ray.dx * unit, ray.dy * unit, ray.dz * unit},
+                         {},
+                         {},
+                         ray.ex + ray.ey + ray.ez + R(kSweepOwnError),
+                         found};
+    lane_frame(out.along, out.side, out.up);
+    return out;
+}
+
+/// The largest error of an end that is not degenerate, as a length.
+template <class R>
+RAYMO_INLINE R sweep_limit(const LocalRay<R>& ray) {
+    return R(kDegenerate) + R(1024.0) * (ray.ex + ray.ey + ray.ez);
+}
