@@ -33,9 +33,10 @@ inline constexpr std::uint32_t kInstanceType = static_cast<std::uint32_t>(solids
 /// normalised frame of an instanced solid).
 struct Frame {
     Mat3 to_local;
-    Vec3 row_length;     ///< lengths of the rows of to_local
-    Vec3 error;          ///< of to_local itself, over the leaf, in the leaf's frame
-    bool diagonal;       ///< to_local has nothing beside its diagonal
+    Vec3 row_length;         ///< lengths of the rows of to_local
+    Vec3 error;              ///< of to_local itself, over the leaf, in the leaf's frame
+    bool diagonal;           ///< to_local has nothing beside its diagonal
+    bool in_blocks = false;  ///< its kernel answers packets in blocks (blocks.hpp)
     double reach;        ///< the leaf lies within this of its centre, in its frame; may be infinite
     double stretch;      ///< by how much to_local lengthens at most, in lengths of its longest row
     std::uint32_t type;  ///< kernel type, or kInstanceType

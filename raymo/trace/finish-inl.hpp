@@ -72,10 +72,21 @@ HWY_INLINE void finish_leaf(const Walker<8>& w, double number, std::uint32_t sam
         const Local<Lanes> local =
             localise<Lanes>(frame, leaf, o.x, o.y, o.z, d.x, d.y, d.z, load(c.error + first));
         Triple<Lanes> normal = place_in_leaf(local, t);
-        visit_kernel(w, frame, [&]<class K>(const K& kernel) {
-            if constexpr (kSpansInLanes < K >> 0)
-                lane_normal(kernel, face, normal.x, normal.y, normal.z);
-        });
+        if (frame.in_blocks) {
+            solids::PlaceBlock places;
+            store(normal.x, places.p[0] + first);
+            store(normal.y, places.p[1] + first);
+            store(normal.z, places.p[2] + first);
+            store(face, places.face + first);
+            block_normals(w.data->kernels, frame, places, here << first);
+            normal = {load(places.p[0] + first), load(places.p[1] + first),
+                      load(places.p[2] + first)};
+        } else {
+            visit_kernel(w, frame, [&]<class K>(const K& kernel) {
+                if constexpr (kSpansInLanes < K >> 0 && !BlockKernel<K>)
+                    lane_normal(kernel, face, normal.x, normal.y, normal.z);
+            });
+        }
         normal = normal_outside(frame, normal);
         const Surface<Lanes> surface =
             surface_at(base, o, d, normal, t, load(n.error + first), load(n.shift + first),

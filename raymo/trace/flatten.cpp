@@ -15,6 +15,7 @@
 #include <cmath>
 
 #include "raymo/core/assert.hpp"
+#include "raymo/trace/blocks.hpp"
 #include "raymo/trace/placement.hpp"
 #include "raymo/trace/units.hpp"
 
@@ -198,6 +199,7 @@ Frame frame_of(const Affine& map, std::uint32_t type, std::uint32_t index) {
     frame.to_local = refined_inverse(map.linear);
     frame.type = type;
     frame.index = index;
+    frame.in_blocks = answers_blocks(type);
     frame.reach = 2.0;
     const std::array<Vec3, 3>& row = frame.to_local.row;
     frame.diagonal = row[0].y == 0.0 && row[0].z == 0.0 && row[1].x == 0.0 && row[1].z == 0.0 &&

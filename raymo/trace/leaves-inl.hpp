@@ -47,6 +47,20 @@ HWY_INLINE void lane_normal(const solids::Halfspace::Kernel&, Lanes, Lanes& x, L
     halfspace_normal(x, y, z);
 }
 
+/// Puts rays into a block, from number `first` on.
+HWY_INLINE void store(const Ray8& ray, solids::RayBlock& out, int first) {
+    store(ray.ox, out.o[0] + first);
+    store(ray.oy, out.o[1] + first);
+    store(ray.oz, out.o[2] + first);
+    store(ray.dx, out.d[0] + first);
+    store(ray.dy, out.d[1] + first);
+    store(ray.dz, out.d[2] + first);
+    store(ray.ex, out.e[0] + first);
+    store(ray.ey, out.e[1] + first);
+    store(ray.ez, out.e[2] + first);
+    store(ray.dd, out.dd + first);
+}
+
 /// What an end of a span becomes on the base ray. All sums are of the same few doubles in the same
 /// order for single rays and packets.
 struct Placing {
@@ -189,11 +203,10 @@ HWY_INLINE void visit_kernel(const Walker<L>& w, const Frame& frame, Visit&& vis
     static_assert(solids::Inventory::kSize <= 16);
 }
 
-template <class K, int L>
-HWY_INLINE void add_spans(const Walker<L>& w, Lane& lane, const Frame& frame, const K& kernel,
-                          const Local<double>& local, const Placing& at) {
-    solids::SpanList spans;
-    kernel.spans(local.ray, spans);
+template <int L>
+HWY_INLINE void add_spans(const Walker<L>& w, Lane& lane, const Frame& frame,
+                          const solids::SpanList& spans, const Local<double>& local,
+                          const Placing& at) {
     if (spans.degenerate()) {
         // Where in the leaf is not known: anywhere the ray comes near it.
         const double reach = frame.reach / std::sqrt(local.ray.dd);
@@ -222,8 +235,51 @@ HWY_INLINE void open_leaf(Walker<1>& w, std::uint32_t context, std::uint32_t ind
     }
     const Placing at{c.t0[0], local.shift, start_slack(c.start_error[0], local.place_error), index,
                      context};
-    visit_kernel(w, frame,
-                 [&](const auto& kernel) { add_spans(w, w.lanes[0], frame, kernel, local, at); });
+    visit_kernel(w, frame, [&](const auto& kernel) {
+        solids::SpanList spans;
+        kernel.spans(local.ray, spans);
+        add_spans(w, w.lanes[0], frame, spans, local, at);
+    });
+}
+
+/// A leaf whose kernel answers blocks.
+HWY_INLINE void open_block_leaf(Walker<8>& w, std::uint32_t context, std::uint32_t index,
+                                const Frame& frame, std::uint32_t lanes) {
+    const Context<8>& c = w.contexts[context];
+    const Leaf& leaf = c.solid->leaves[index];
+    solids::RayBlock block;
+    alignas(64) double shift[8];
+    alignas(64) double slack[8];
+    for (int first = 0; first < 8; first += kLanes) {
+        const Local<Lanes> local =
+            localise<Lanes>(frame, leaf, load(c.o[0] + first), load(c.o[1] + first),
+                            load(c.o[2] + first), load(c.d[0] + first), load(c.d[1] + first),
+                            load(c.d[2] + first), load(c.error + first));
+        store(local.ray, block, first);
+        store(local.shift, shift + first);
+        store(start_slack(load(c.start_error + first), local.place_error), slack + first);
+    }
+    solids::SpanBlock spans;
+    block_spans(w.data->kernels, frame, block, lanes, spans);
+    for (int k = 0; k < spans.count; ++k) {
+        for (std::uint32_t rest = spans.valid[k]; rest != 0; rest &= rest - 1) {
+            const int i = __builtin_ctz(rest);
+            const Placing at{c.t0[i], shift[i], slack[i], index, context};
+            const auto end = [&](const solids::SpanBlock::End& e, bool enter) {
+                return event_at(at, e.s[k][i], e.error[k][i],
+                                static_cast<std::uint16_t>(e.face[k][i]), enter);
+            };
+            add_span(w, w.lanes[i], end(spans.enter, true), end(spans.exit, false));
+        }
+    }
+    for (std::uint32_t rest = spans.left_over; rest != 0; rest &= rest - 1) {
+        const int i = __builtin_ctz(rest);
+        const auto local = localise<double>(frame, leaf, c.o[0][i], c.o[1][i], c.o[2][i], c.d[0][i],
+                                            c.d[1][i], c.d[2][i], c.error[i]);
+        solids::SpanList list;
+        spans_in_full(w.data->kernels, frame, local.ray, list);
+        add_spans(w, w.lanes[i], frame, list, local, {c.t0[i], shift[i], slack[i], index, context});
+    }
 }
 
 HWY_INLINE void open_leaf(Walker<8>& w, std::uint32_t context, std::uint32_t index,
@@ -241,14 +297,22 @@ HWY_INLINE void open_leaf(Walker<8>& w, std::uint32_t context, std::uint32_t ind
         open_instance(w, context, index, frame, lanes, locals);
         return;
     }
+    if (frame.in_blocks) {
+        open_block_leaf(w, context, index, frame, lanes);
+        return;
+    }
     visit_kernel(w, frame, [&]<class K>(const K& kernel) {
         constexpr int kSpans = kSpansInLanes<K>;
-        if constexpr (kSpans == 0) {
+        if constexpr (BlockKernel<K>) {
+            return;
+        } else if constexpr (kSpans == 0) {
             for (std::uint32_t rest = lanes; rest != 0; rest &= rest - 1) {
                 const int i = __builtin_ctz(rest);
                 const auto local = localise<double>(frame, leaf, c.o[0][i], c.o[1][i], c.o[2][i],
                                                     c.d[0][i], c.d[1][i], c.d[2][i], c.error[i]);
-                add_spans(w, w.lanes[i], frame, kernel, local,
+                solids::SpanList spans;
+                kernel.spans(local.ray, spans);
+                add_spans(w, w.lanes[i], frame, spans, local,
                           {c.t0[i], local.shift, start_slack(c.start_error[i], local.place_error),
                            index, context});
             }

@@ -30,9 +30,10 @@ HWY_INLINE EndInLanes end_at(Lanes shift, Lanes slack, Lanes s, Lanes error, Lan
     return out;
 }
 
-/// Spans of a leaf for the rays from `first` on; returns how many at most. `trouble`: the ray runs in the boundary.
-HWY_INLINE int spans_of(Walker<8>& w, std::uint32_t index, int first, SpanInLanes* spans,
-                        Mask& trouble, Lanes& trouble_lo) {
+/// Spans of a leaf for the rays from `first` on that are `asked`; returns how many at most. `trouble`: the ray runs in the
+/// boundary, or was left over.
+HWY_INLINE int spans_of(Walker<8>& w, std::uint32_t index, int first, std::uint32_t asked,
+                        SpanInLanes (&spans)[kMostSpansInLanes], Mask& trouble, Lanes& trouble_lo) {
     const Context<8>& c = w.contexts[0];
     const Leaf& leaf = c.solid->leaves[index];
     const Frame& frame = w.data->frames[leaf.frame];
@@ -43,24 +44,43 @@ HWY_INLINE int spans_of(Walker<8>& w, std::uint32_t index, int first, SpanInLane
     int count = 0;
     Mask touched = Lanes(0.0) > Lanes(1.0);
     Lanes touch_lo(0.0);
-    visit_kernel(w, frame, [&]<class K>(const K& kernel) RAYMO_INLINE_BODY {
-        constexpr int kSpans = kSpansInLanes<K>;
-        if constexpr (kSpans > 0) {
-            LaneSpans<Lanes, Mask, kSpans> found;
-            lane_spans(kernel, local.ray, found);
-            for (int k = 0; k < kSpans; ++k) {
-                spans[k].valid = found.valid[k];
-                spans[k].enter = end_at(local.shift, slack, found.enter[k], found.enter_error[k],
-                                        found.enter_face[k]);
-                spans[k].exit = end_at(local.shift, slack, found.exit[k], found.exit_error[k],
-                                       found.exit_face[k]);
-            }
-            trouble = found.degenerate;
-            touched = found.touched;
-            touch_lo = local.shift + found.touch_lo;
-            count = kSpans;
+    trouble = mask_of(0);
+    if (frame.in_blocks) {
+        solids::RayBlock block;
+        store(local.ray, block, first);
+        solids::SpanBlock found;
+        block_spans(w.data->kernels, frame, block, asked << first, found);
+        const auto end = [&](const solids::SpanBlock::End& e, int k) {
+            return end_at(local.shift, slack, load(e.s[k] + first), load(e.error[k] + first),
+                          load(e.face[k] + first));
+        };
+        count = found.count;
+        for (int k = 0; k < count; ++k) {
+            spans[k].valid = mask_of(found.valid[k] >> first);
+            spans[k].enter = end(found.enter, k);
+            spans[k].exit = end(found.exit, k);
         }
-    });
+        trouble = mask_of(found.left_over >> first);
+    } else {
+        visit_kernel(w, frame, [&]<class K>(const K& kernel) RAYMO_INLINE_BODY {
+            constexpr int kSpans = kSpansInLanes<K>;
+            if constexpr (kSpans > 0 && !BlockKernel<K>) {
+                LaneSpans<Lanes, Mask, kSpans> found;
+                lane_spans(kernel, local.ray, found);
+                for (int k = 0; k < kSpans; ++k) {
+                    spans[k].valid = found.valid[k];
+                    spans[k].enter = end_at(local.shift, slack, found.enter[k],
+                                            found.enter_error[k], found.enter_face[k]);
+                    spans[k].exit = end_at(local.shift, slack, found.exit[k], found.exit_error[k],
+                                           found.exit_face[k]);
+                }
+                trouble = found.degenerate;
+                touched = found.touched;
+                touch_lo = local.shift + found.touch_lo;
+                count = kSpans;
+            }
+        });
+    }
     trouble_lo = Lanes(kInfinity);
     if (lane_any(trouble)) trouble_lo = local.shift - Lanes(frame.reach) / lane_sqrt(local.ray.dd);
     if (lane_any(touched)) {
@@ -133,10 +153,10 @@ inline constexpr double kLeaving = 0.5;
 /// A leaf by itself. Returns the rays that start inside it.
 HWY_INLINE std::uint32_t meet_leaf(Walker<8>& w, std::uint32_t index, int first,
                                    std::uint32_t lanes, NearestInLanes& nearest) {
-    SpanInLanes spans[2];
+    SpanInLanes spans[kMostSpansInLanes];
     Mask trouble;
     Lanes trouble_lo;
-    const int count = spans_of(w, index, first, spans, trouble, trouble_lo);
+    const int count = spans_of(w, index, first, lanes, spans, trouble, trouble_lo);
     const Mask here = mask_of(lanes);
     nearest.doubt(lane_and(here, trouble), trouble_lo);
     std::uint32_t inside = 0;
@@ -169,6 +189,7 @@ struct ProductInLanes {
     Mask alive;       ///< rays that may still meet it
     Mask doubtful;    ///< where something was undecided
     Mask from_start;  ///< `at` is the start of the ray
+    Mask moved;       ///< `at` is where something that is taken away ends
     EndInLanes at;    ///< the first place that is not known to be taken away
     Lanes at_leaf;    ///< leaf whose surface is there
     // Where the first leaf of the core is left.
@@ -182,7 +203,9 @@ struct ProductInLanes {
         const Mask entered = lane_and(alive, lane_and(span.valid, before));
         const Mask left =
             lane_or(lane_and(from_start, span.exit.near <= start), span.exit.hi < at.lo);
-        const Mask within = lane_and(entered, lane_not(left));
+        // Where a span that has been left ends, it is not met again.
+        const Mask its_end = lane_and(moved, lane_and(at_leaf == leaf, at.t == span.exit.t));
+        const Mask within = lane_and(entered, lane_not(lane_or(left, its_end)));
         const Mask goes_on = lane_and(within, span.exit.lo > at.hi);
         doubtful = lane_or(doubtful, lane_and(within, lane_not(span.exit.lo > at.hi)));
         at.t = lane_select(goes_on, span.exit.t, at.t);
@@ -192,6 +215,7 @@ struct ProductInLanes {
         at.hi = lane_select(goes_on, span.exit.hi, at.hi);
         at_leaf = lane_select(goes_on, leaf, at_leaf);
         from_start = lane_and(from_start, lane_not(goes_on));
+        moved = lane_or(moved, goes_on);
         return goes_on;
     }
 };
@@ -268,10 +292,11 @@ HWY_INLINE std::uint32_t search_cutters(Walker<8>& w, const Beam& beam, std::uin
         w.leaves += box.count * static_cast<std::uint64_t>(lane_count(box.lanes));
         const Mask near = mask_of(box.lanes >> first);
         for (std::uint32_t leaf = box.ref; leaf < box.ref + box.count; ++leaf) {
-            SpanInLanes spans[2];
+            SpanInLanes spans[kMostSpansInLanes];
             Mask trouble;
             Lanes trouble_lo;
-            const int count = spans_of(w, leaf, first, spans, trouble, trouble_lo);
+            const int count =
+                spans_of(w, leaf, first, box.lanes >> first, spans, trouble, trouble_lo);
             nearest.doubt(lane_and(near, trouble), trouble_lo);
             for (int i = 0; i < count; ++i) {
                 SpanInLanes& span = spans[i];
@@ -286,41 +311,39 @@ HWY_INLINE std::uint32_t search_cutters(Walker<8>& w, const Beam& beam, std::uin
     return moved;
 }
 
-/// A product, in its unit's place. Returns the rays that start inside it.
-HWY_INLINE std::uint32_t meet_product(Walker<8>& w, const Beam& beam, std::uint32_t index, int size,
-                                      int first, std::uint32_t lanes, NearestInLanes& nearest) {
-    const CompiledSolid& solid = *w.contexts[0].solid;
+/// The spans of one leaf.
+struct LeafInLanes {
+    SpanInLanes spans[kMostSpansInLanes];
+    int count;
+    Lanes number;  ///< of the leaf
+};
+
+/// The leaves of a product that stand together.
+struct MembersInLanes {
+    LeafInLanes core[kMostInUnit];  ///< all of which a place must be in
+    int core_count = 0;
+    LeafInLanes taken[kMostInUnit];  ///< and in none of these
+    int taken_count = 0;
+    int taken_spans = 0;  ///< of all of them
+};
+
+/// A product, as far as it lies in one span of each leaf of its core, those with the numbers `choice`. Returns the rays
+/// that start inside it.
+HWY_INLINE std::uint32_t meet_core(Walker<8>& w, const Beam& beam, std::uint32_t cutters, int first,
+                                   Mask here, const MembersInLanes& members,
+                                   const int (&choice)[kMostInUnit], NearestInLanes& nearest) {
     const Lanes start = nearest.start;
-    const Mask here = mask_of(lanes);
     ProductInLanes p;
     p.alive = here;
-    p.doubtful = lane_and(here, lane_not(here));
+    p.doubtful = p.moved = lane_and(here, lane_not(here));
     // Where all leaves of the core are entered, and where the first of them is left.
     EndInLanes enter;
     enter.t = enter.lo = enter.hi = enter.near = Lanes(-kInfinity);
     enter.error = enter.face = Lanes(0.0);
     p.at_leaf = Lanes(0.0);
     p.exit_near = p.exit_lo = p.exit_hi = Lanes(kInfinity);
-    SpanInLanes taken[kMostInUnit];
-    Lanes taken_leaf[kMostInUnit];
-    int taken_count = 0;
-    for (int i = 0; i < size; ++i) {
-        const std::uint32_t leaf = index + static_cast<std::uint32_t>(i);
-        SpanInLanes spans[2];
-        Mask trouble;
-        Lanes trouble_lo;
-        static_cast<void>(spans_of(w, leaf, first, spans, trouble, trouble_lo));
-        nearest.doubt(lane_and(here, trouble), trouble_lo);
-        const SpanInLanes& span = spans[0];
-        const Mask about = lane_and(lane_and(here, span.valid), span.exit.hi >= start);
-        nearest.pass(lane_and(about, span.enter.near <= start), span.enter.hi);
-        nearest.pass(lane_and(about, span.exit.near <= start), span.exit.hi);
-        const Lanes number(static_cast<double>(leaf));
-        if (w.data->looks[solid.leaves[leaf].look].cuts) {
-            taken[taken_count] = span;
-            taken_leaf[taken_count++] = number;
-            continue;
-        }
+    for (int i = 0; i < members.core_count; ++i) {
+        const SpanInLanes& span = members.core[i].spans[choice[i]];
         p.alive = lane_and(p.alive, span.valid);
         if (!lane_any(p.alive)) return 0;
         const Mask later = span.enter.lo > enter.hi;
@@ -330,7 +353,7 @@ HWY_INLINE std::uint32_t meet_product(Walker<8>& w, const Beam& beam, std::uint3
         enter.t = lane_select(later, span.enter.t, enter.t);
         enter.error = lane_select(later, span.enter.error, enter.error);
         enter.face = lane_select(later, span.enter.face, enter.face);
-        p.at_leaf = lane_select(later, number, p.at_leaf);
+        p.at_leaf = lane_select(later, members.core[i].number, p.at_leaf);
         enter.lo = lane_max(span.enter.lo, enter.lo);
         enter.hi = lane_max(span.enter.hi, enter.hi);
         enter.near = lane_max(span.enter.near, enter.near);
@@ -348,13 +371,16 @@ HWY_INLINE std::uint32_t meet_product(Walker<8>& w, const Beam& beam, std::uint3
     p.at.lo = lane_select(p.from_start, start, enter.lo);
     p.at.hi = lane_select(p.from_start, start, enter.hi);
 
-    for (int pass = 0; pass < taken_count; ++pass) {
-        Mask moved = p.leave(taken[0], taken_leaf[0], start);
-        for (int j = 1; j < taken_count; ++j)
-            moved = lane_or(moved, p.leave(taken[j], taken_leaf[j], start));
+    // Each span is left once at most.
+    for (int pass = 0; pass < members.taken_spans; ++pass) {
+        Mask moved = mask_of(0);
+        for (int j = 0; j < members.taken_count; ++j) {
+            const LeafInLanes& leaf = members.taken[j];
+            for (int k = 0; k < leaf.count; ++k)
+                moved = lane_or(moved, p.leave(leaf.spans[k], leaf.number, start));
+        }
         if (!lane_any(moved)) break;
     }
-    const std::uint32_t cutters = solid.leaves[index].cutters;
     if (cutters != kNone) {
         // Of rays that have found something nearer, or have left the core, nothing more needs to be known.
         const auto going = [&] {
@@ -373,12 +399,59 @@ HWY_INLINE std::uint32_t meet_product(Walker<8>& w, const Beam& beam, std::uint3
         }
     }
     p.alive = lane_and(p.alive, p.at.lo <= p.exit_hi);
-    p.doubtful = lane_or(p.doubtful, p.at.hi >= p.exit_lo);
+    // Where what is taken away ends together with the core, the ray is outside before and behind.
+    const Mask at_exit = p.at.hi >= p.exit_lo;
+    p.alive =
+        lane_and(p.alive, lane_not(lane_and(lane_and(at_exit, p.moved), lane_not(p.doubtful))));
+    p.doubtful = lane_or(p.doubtful, at_exit);
     nearest.doubt(lane_and(p.alive, p.doubtful), lane_max(enter.lo, start));
     p.alive = lane_and(p.alive, lane_not(p.doubtful));
     nearest.offer(lane_and(p.alive, lane_and(lane_not(p.from_start), p.at.lo <= nearest.limit)),
                   p.at, p.at_leaf);
     return bits(lane_and(p.alive, p.from_start));
+}
+
+/// A product, in its unit's place. Returns the rays that start inside it.
+HWY_INLINE std::uint32_t meet_product(Walker<8>& w, const Beam& beam, std::uint32_t index, int size,
+                                      int first, std::uint32_t lanes, NearestInLanes& nearest) {
+    const CompiledSolid& solid = *w.contexts[0].solid;
+    const Lanes start = nearest.start;
+    const Mask here = mask_of(lanes);
+    MembersInLanes members;
+    for (int i = 0; i < size; ++i) {
+        const std::uint32_t number = index + static_cast<std::uint32_t>(i);
+        const bool cuts = w.data->looks[solid.leaves[number].look].cuts;
+        LeafInLanes& leaf =
+            cuts ? members.taken[members.taken_count++] : members.core[members.core_count++];
+        leaf.number = Lanes(static_cast<double>(number));
+        Mask trouble;
+        Lanes trouble_lo;
+        leaf.count = spans_of(w, number, first, lanes, leaf.spans, trouble, trouble_lo);
+        nearest.doubt(lane_and(here, trouble), trouble_lo);
+        Mask met = mask_of(0);
+        for (int k = 0; k < leaf.count; ++k) {
+            const SpanInLanes& span = leaf.spans[k];
+            const Mask about = lane_and(lane_and(here, span.valid), span.exit.hi >= start);
+            nearest.pass(lane_and(about, span.enter.near <= start), span.enter.hi);
+            nearest.pass(lane_and(about, span.exit.near <= start), span.exit.hi);
+            met = lane_or(met, about);
+        }
+        if (cuts) {
+            members.taken_spans += leaf.count;
+        } else if (!lane_any(met)) {
+            return 0;
+        }
+    }
+    // All ways to choose a span of each leaf of the core.
+    const std::uint32_t cutters = solid.leaves[index].cutters;
+    int choice[kMostInUnit] = {};
+    std::uint32_t inside = 0;
+    for (;;) {
+        inside |= meet_core(w, beam, cutters, first, here, members, choice, nearest);
+        int i = 0;
+        while (i < members.core_count && ++choice[i] == members.core[i].count) choice[i++] = 0;
+        if (i == members.core_count) return inside;
+    }
 }
 
 /// Walks the tree for all active rays; the answers are in w.nearest.

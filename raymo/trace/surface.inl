@@ -1,7 +1,5 @@
 // What is told of the surface that a ray meets, for one ray or several (see math/lanes.hpp). Included once per
-// instruction set, after localise.inl.
-
-#include "raymo/math/triple.inl"
+// instruction set, after localise.inl and math/triple.inl.
 
 /// a / |a|, scaled first so that squares neither overflow nor underflow.
 template <class R>

@@ -16,6 +16,7 @@ namespace raymo::trace {
 namespace {
 
 using solids::LocalRay;
+#include "raymo/math/triple.inl"
 #include "raymo/trace/localise.inl"
 //
 #include "raymo/trace/surface.inl"

@@ -12,12 +12,16 @@ namespace {
 /// Leaves of a product that stands in the tree as a whole, at most: more are found sooner by their own boxes.
 constexpr std::size_t kMostTogether = 4;
 
+/// Leaves of a product's core that may have several spans.
+constexpr int kMostBranching = 2;
+
 /// Leaves of one product, by their number in the order of the model.
 struct Product {
     std::uint32_t group;
-    std::vector<std::uint32_t> core;     ///< all of which a place must be in
-    std::vector<std::uint32_t> united;   ///< or any of these
-    std::vector<std::uint32_t> cutters;  ///< and in none of these
+    std::vector<std::uint32_t> core;                 ///< all of which a place must be in
+    std::vector<std::uint32_t> united;               ///< or any of these
+    std::vector<std::vector<std::uint32_t>> joined;  ///< or in the product of any of these lists
+    std::vector<std::uint32_t> cutters;              ///< and in none of these
     /// There is a union, though all of its leaves may have been left out, as they lie outside of the core.
     bool has_union;
     std::uint32_t root = kNone;  ///< node of the tree of the cutters
@@ -69,9 +73,12 @@ private:
     [[nodiscard]] LeafKind kind(std::uint32_t leaf) const {
         return kinds_[data_.frames[solid_.leaves[leaf].frame].type];
     }
-    [[nodiscard]] bool all_convex(const std::vector<std::uint32_t>& leaves) const {
-        return std::all_of(leaves.begin(), leaves.end(),
-                           [&](std::uint32_t l) { return kind(l) == LeafKind::one_span; });
+    /// Whether packets can go through all choices of a span of each leaf.
+    [[nodiscard]] bool few_spans(const std::vector<std::uint32_t>& leaves) const {
+        return all_in_lanes(leaves) &&
+               std::count_if(leaves.begin(), leaves.end(), [&](std::uint32_t l) {
+                   return kind(l) == LeafKind::spans;
+               }) <= kMostBranching;
     }
     /// False for what is called a union here and is part of a difference: b - c in a - (b - c).
     [[nodiscard]] bool none_cuts(const std::vector<std::uint32_t>& leaves) const {
@@ -84,7 +91,8 @@ private:
                            [&](std::uint32_t l) { return kind(l) != LeafKind::single_rays; });
     }
 
-    /// What each group is: a product of leaves right below a part's root, the union that one starts from, or neither.
+    /// What each group is: a product of leaves right below a part's root, the union that one starts from, a product of leaves
+    /// in such a union, or none of these.
     void find_products() {
         const auto& groups = solid_.groups;
         std::vector<std::uint32_t> below(groups.size());  // groups right below each
@@ -93,15 +101,30 @@ private:
         const auto is_top = [&](std::uint32_t g) {
             return g >= solid_.parts && groups[g].parent < solid_.parts && groups[g].negated;
         };
+        std::vector<std::uint32_t> deeper(groups.size());  // groups right below those
+        for (std::size_t g = solid_.parts; g < groups.size(); ++g) {
+            if (groups[g].parent >= solid_.parts) deeper[groups[g].parent] += below[g];
+        }
+        joined_of_.assign(groups.size(), kNone);
         for (std::uint32_t g = solid_.parts; g < groups.size(); ++g) {
             const std::uint32_t top = groups[g].parent;
             const bool is_union =
-                is_top(top) && below[top] == 1 && below[g] == 0 && groups[g].negated;
+                is_top(top) && below[top] == 1 && deeper[g] == 0 && groups[g].negated;
             const bool is_product = is_top(g) && below[g] == 0;
             if (!is_union && !is_product) continue;
             product_of_[g] = static_cast<std::uint32_t>(products_.size());
             if (is_union) product_of_[top] = product_of_[g];
-            products_.push_back({is_union ? top : g, {}, {}, {}, is_union});
+            products_.push_back({is_union ? top : g, {}, {}, {}, {}, is_union});
+        }
+        for (std::uint32_t g = solid_.parts; g < groups.size(); ++g) {
+            const std::uint32_t above = groups[g].parent;
+            if (above < solid_.parts || product_of_[above] == kNone || product_of_[g] != kNone)
+                continue;
+            Product& product = products_[product_of_[above]];
+            if (above == product.group || !groups[g].negated) continue;
+            product_of_[g] = product_of_[above];
+            joined_of_[g] = static_cast<std::uint32_t>(product.joined.size());
+            product.joined.emplace_back();
         }
     }
 
@@ -122,7 +145,9 @@ private:
                 continue;
             }
             Product& product = products_[number];
-            if (leaf.parent != product.group) {
+            if (joined_of_[leaf.parent] != kNone) {
+                product.joined[joined_of_[leaf.parent]].push_back(i);
+            } else if (leaf.parent != product.group) {
                 product.united.push_back(i);
             } else {
                 (data_.looks[leaf.look].cuts ? product.cutters : product.core).push_back(i);
@@ -142,30 +167,58 @@ private:
         all.insert(all.end(), product.cutters.begin(), product.cutters.end());
         const bool can_be_cut = all_in_lanes(product.cutters) && !product.cutters.empty();
         const std::size_t most = product.cutters.empty() ? kMostInUnit : kMostTogether;
-        if (!product.has_union && !product.core.empty() && all.size() <= most && all_convex(all)) {
+        if (!product.has_union && !product.core.empty() && all.size() <= most &&
+            few_spans(product.core) && all_in_lanes(product.cutters)) {
             product.cutters.clear();
             add_unit(all, box_of(all));
         } else if (!product.has_union && !product.core.empty() &&
-                   product.core.size() <= kMostInUnit && all_convex(product.core) && can_be_cut) {
+                   product.core.size() <= kMostInUnit && few_spans(product.core) && can_be_cut) {
             add_unit(product.core, box_of(product.core));
-        } else if (!product.united.empty() && product.core.empty() && none_cuts(product.united) &&
-                   all_convex(product.united) && can_be_cut && lend_alike(product)) {
+        } else if (has_leaves(product) && product.core.empty() && none_cuts(product.united) &&
+                   all_in_lanes(product.united) && all_stand_together(product.joined) &&
+                   can_be_cut && lend_alike(product)) {
             // (a + b) - c = (a - c) + (b - c).
             for (const std::uint32_t& leaf : product.united) add_unit({&leaf, 1}, boxes_[leaf]);
+            for (const auto& leaves : product.joined) {
+                if (!leaves.empty()) add_unit(leaves, box_of(leaves));
+            }
         } else {
             product.cutters.clear();
             solid_.simple = false;
             all.insert(all.end(), product.united.begin(), product.united.end());
+            for (const auto& leaves : product.joined)
+                all.insert(all.end(), leaves.begin(), leaves.end());
             for (const std::uint32_t& leaf : all) add_unit({&leaf, 1}, boxes_[leaf]);
         }
+    }
+    [[nodiscard]] static bool has_leaves(const Product& product) {
+        return !product.united.empty() || !product.joined.empty();
+    }
+    /// Whether each list is a product that can stand in the tree as a whole; its core comes first then.
+    [[nodiscard]] bool all_stand_together(std::vector<std::vector<std::uint32_t>>& joined) const {
+        return std::all_of(joined.begin(), joined.end(), [&](std::vector<std::uint32_t>& leaves) {
+            const auto end_of_core = std::stable_partition(
+                leaves.begin(), leaves.end(),
+                [&](std::uint32_t l) { return !data_.looks[solid_.leaves[l].look].cuts; });
+            const std::vector<std::uint32_t> core(leaves.begin(), end_of_core);
+            // A cutter shows the material of what it cuts by its own product (see shown_by).
+            const bool lends = std::any_of(end_of_core, leaves.end(), [&](std::uint32_t l) {
+                return data_.looks[solid_.leaves[l].look].borrows;
+            });
+            return leaves.empty() || (!core.empty() && !lends && leaves.size() <= kMostTogether &&
+                                      few_spans(core) && all_in_lanes(leaves));
+        });
     }
     /// Whether a cutter that shows the material of what it cuts shows the same wherever it cuts.
     [[nodiscard]] bool lend_alike(const Product& product) const {
         const auto look = [&](std::uint32_t leaf) -> const Look& {
             return data_.looks[solid_.leaves[leaf].look];
         };
-        const csg::MaterialId material = look(product.united.front()).material;
-        return std::all_of(product.united.begin(), product.united.end(),
+        std::vector<std::uint32_t> all = product.united;
+        for (const auto& leaves : product.joined)
+            all.insert(all.end(), leaves.begin(), leaves.end());
+        const csg::MaterialId material = look(all.front()).material;
+        return std::all_of(all.begin(), all.end(),
                            [&](std::uint32_t l) { return look(l).material == material; }) ||
                std::none_of(product.cutters.begin(), product.cutters.end(),
                             [&](std::uint32_t l) { return look(l).borrows; });
@@ -308,6 +361,7 @@ private:
     std::vector<Boxf> unit_boxes_;
     std::vector<Product> products_;
     std::vector<std::uint32_t> product_of_;  ///< by group: number of the product, or kNone
+    std::vector<std::uint32_t> joined_of_;   ///< by group: which of the product's lists, or kNone
 };
 
 }  // namespace

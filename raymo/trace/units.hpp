@@ -3,7 +3,8 @@
 // A unit is a leaf, or a product: a difference or an intersection of leaves, right below the root of a part. A small product
 // stands in the tree as a whole. Of a product with more leaves only the core does, the leaves whose inside counts; those
 // that are taken away, the cutters, have a tree of their own, which is searched about one place of a ray at a time. What is
-// taken away from a union is taken away from each of its leaves, which are cores that share their cutters.
+// taken away from a union is taken away from each of its leaves, and of its small products, which are cores that share
+// their cutters.
 // Single rays go through all trees, from a node above them.
 #pragma once
 

@@ -20,7 +20,9 @@
 #include "raymo/math/lanes.hpp"
 #include "raymo/math/targets.hpp"
 #include "raymo/math/tolerance.hpp"
+#include "raymo/solids/ray_block.hpp"
 #include "raymo/trace/base_ray.hpp"
+#include "raymo/trace/blocks.hpp"
 #include "raymo/trace/lane_kinds.hpp"
 #include "raymo/trace/packet.hpp"
 
@@ -28,8 +30,10 @@ HWY_BEFORE_NAMESPACE();
 namespace raymo::trace {
 namespace HWY_NAMESPACE {
 #include "raymo/math/lanes-inl.hpp"
+using solids::BlockKernel;
 using solids::LaneSpans;
 using solids::LocalRay;
+#include "raymo/math/triple.inl"
 #include "raymo/solids/kernels.inl"
 #include "raymo/trace/localise.inl"
 //
