@@ -70,7 +70,10 @@ inline Affine random_map(Random& random, double reach) {
 }
 
 /// The first so many kinds of grid_leaf: convex ones, ones that packets compute side by side, all.
-inline constexpr int kConvexLeaves = 5, kLaneLeaves = 6, kAllLeaves = 7;
+inline constexpr int kConvexLeaves = 5, kLaneLeaves = 8, kAllLeaves = 9;
+
+/// A swept or turned contour, or a swept ball, of that size.
+[[nodiscard]] ModelPtr grid_sweep(Random& random);
 
 /// A primitive of size about 1..6 with sizes and places on the half-integer grid, so that faces often coincide.
 inline ModelPtr grid_leaf(Random& random, int kinds = kAllLeaves) {
@@ -92,6 +95,10 @@ inline ModelPtr grid_leaf(Random& random, int kinds = kAllLeaves) {
             break;
         case 5:
             leaf = torus(n(2), n(2));
+            break;
+        case 6:
+        case 7:
+            leaf = grid_sweep(random);
             break;
         default: {
             // an ellipsoid
@@ -140,9 +147,14 @@ inline ModelPtr drilled(Random& random) {
     ModelPtr all;
     for (int parts = 1 + random.below(3); parts > 0; --parts) {
         ModelPtr part = grid_leaf(random, random.chance(0.2) ? kLaneLeaves : kConvexLeaves);
-        if (random.chance(0.2)) part = meet(part, grid_leaf(random, kConvexLeaves));
-        for (int more = random.chance(0.4) ? random.below(5) : 0; more > 0; --more)
-            part = join(part, grid_leaf(random, kConvexLeaves));
+        if (random.chance(0.2)) part = meet(part, grid_leaf(random, kLaneLeaves));
+        for (int more = random.chance(0.4) ? random.below(5) : 0; more > 0; --more) {
+            ModelPtr other = grid_leaf(random, random.chance(0.3) ? kLaneLeaves : kConvexLeaves);
+            // A product in the union, now and then.
+            if (random.chance(0.2)) other = meet(other, grid_leaf(random, kLaneLeaves));
+            if (random.chance(0.2)) other = cut(other, grid_leaf(random, kLaneLeaves));
+            part = join(part, other);
+        }
         for (int tools = random.below(random.chance(0.5) ? 5 : 40); tools > 0; --tools) {
             ModelPtr tool = grid_leaf(random, kLaneLeaves);
             // Mostly small, so that something is left.
