@@ -15,7 +15,7 @@ namespace {
 /// rounding of the points.
 constexpr double kNearestCuts = 0x1p-30;
 
-constexpr std::uint32_t kLeafPieces = 2;
+constexpr std::uint32_t kLeafPieces = 1;
 
 /// x' w - x w': zero where x / w is stationary.
 Bernstein<5> turning(const std::array<double, 4>& x, const std::array<double, 4>& w) {
@@ -194,7 +194,9 @@ void Region::number_runs(std::uint32_t first) {
     };
     std::uint32_t run = runs_;
     for (std::uint32_t i = first; i < end; ++i) {
-        if (i > first && is_corner(i)) ++run;
+        const bool corner = is_corner(i);
+        pieces_[pieces_[i].previous].ends_in_corner = corner;
+        if (i > first && corner) ++run;
         pieces_[i].run = run;
     }
     // The last stretch of a curve that closes smoothly goes on in the first.

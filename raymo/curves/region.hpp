@@ -25,6 +25,7 @@ struct Piece : Span2 {
     std::uint32_t previous = 0;  ///< and the one that ends where this begins
     std::uint32_t run = 0;  ///< number of the smooth stretch between two corners that it is part of
     double bend = 0.0;      ///< largest second difference of its coefficients
+    bool ends_in_corner = false;  ///< the tangent turns where it ends
 };
 
 class Region {

@@ -184,18 +184,22 @@ private:
     RAYMO_INLINE M has_halves(const ProfilePart<R>& part, const R (&f)[7]) const {
         const R zero(0.0);
         const R one(1.0);
-        R changes = zero;
-        for (int i = 0; i < 6; ++i) {
-            const M low = f[i] < zero;
-            const M next = f[i + 1] < zero;
-            changes = changes + lane_select(lane_or(lane_and(low, lane_not(next)),
-                                                    lane_and(next, lane_not(low))),
-                                            one, zero);
-        }
-        M apart = lane_and(changes > R(1.5), changes < R(2.5));
+        // A at both ends: mostly of one sign.
+        const M low = part.a[0] < zero;
+        const M high = part.a[3] < zero;
+        M apart = lane_or(lane_and(low, lane_not(high)), lane_and(high, lane_not(low)));
         if (!lane_any(apart)) return apart;
         const LaneSigns<M> signs = lane_signs<3, M>(part.a, zero);
-        apart = lane_and(apart, signs.one);
+        R changes = zero;
+        for (int i = 0; i < 6; ++i) {
+            const M here = f[i] < zero;
+            const M next = f[i + 1] < zero;
+            changes = changes + lane_select(lane_or(lane_and(here, lane_not(next)),
+                                                    lane_and(next, lane_not(here))),
+                                            one, zero);
+        }
+        apart = lane_and(signs.one, lane_and(changes > R(1.5), changes < R(2.5)));
+        if (!lane_any(apart)) return apart;
         // C^2 - B^2
         const R(&b)[4] = part.b;
         const R(&c)[4] = part.c;
@@ -211,11 +215,11 @@ private:
         const R first = lane_sqrt(lane_max(k[0], zero));
         const R last = lane_sqrt(lane_max(k[6], zero));
         for (const double half : {1.0, -1.0}) {
-            const M low = part.a[0] - R(half) * first < zero;
-            const M then = part.a[3] - R(half) * last < zero;
+            const M begin = part.a[0] - R(half) * first < zero;
+            const M end = part.a[3] - R(half) * last < zero;
             apart = lane_and(
-                apart, lane_or(lane_and(signs.rises, lane_and(low, lane_not(then))),
-                               lane_and(lane_not(signs.rises), lane_and(lane_not(low), then))));
+                apart, lane_or(lane_and(signs.rises, lane_and(begin, lane_not(end))),
+                               lane_and(lane_not(signs.rises), lane_and(lane_not(begin), end))));
         }
         return apart;
     }
@@ -337,6 +341,8 @@ private:
             leave(lane_and(asked, lane_and(near, R(piece.x[end]) <= er)));
         }
         leave(lane_and(asked, er > R(0x1p-20)));
+        // Where the curve runs on smoothly a ray that only touches it finds a zero on both sides.
+        if (!piece.ends_in_corner) return;
         const R r(piece.x[3]);
         const R z(piece.y[3]);
         const R steep_s = (z - o.z) * inverse_dz;
