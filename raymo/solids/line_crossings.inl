@@ -58,7 +58,7 @@ struct LineCrossings {
     }
 
     /// Puts the spans of the lines that are `asked` and not left over into `out`, each clipped to `window`, and returns how
-    /// many there are at most; the rest of `out` is not touched. `winding`: at the place from which on crossings were kept.
+    /// many there are at most; spans of `out` beyond these are not touched. `winding`: at the place from which on crossings were kept.
     RAYMO_INLINE int spans(const LocalRay<R>& ray, M asked, R winding, const Window<R>& window,
                            LaneSpans<R, M, solids::kSweptSpans>& out) {
         const R zero(0.0);

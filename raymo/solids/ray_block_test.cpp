@@ -135,4 +135,20 @@ TEST_CASE(
     });
 }
 
+TEST_CASE("revolve: errors hold where one of Newton's steps lands near a zero by luck") {
+    const auto placed = Revolve::prepare(Revolve::examples()[1]);  // a half-disc: a sphere
+    REQUIRE(placed.has_value());
+    const Vec3 o{0.06997323389964058, 0.13181544560363195, 0.42376733905041638};
+    const Vec3 d{0.56636200082802457, 0.75580736615901678, -0.32861726868478247};
+    const double e = 1e-15;
+    const LocalRay<double> ray{o.x, o.y, o.z, d.x, d.y, d.z, e, e, e, dot(d, d)};
+    SpanList plain, full;
+    placed->kernel.spans(ray, plain);
+    placed->kernel.spans_in_full(ray, full);
+    REQUIRE(plain.size() == 1);
+    REQUIRE(full.size() == 1);
+    CHECK(near(plain[0].enter, full[0].enter));
+    CHECK(near(plain[0].exit, full[0].exit));
+}
+
 }  // namespace raymo::solids

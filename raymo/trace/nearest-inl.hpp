@@ -371,16 +371,22 @@ HWY_INLINE std::uint32_t meet_core(Walker<8>& w, const Beam& beam, std::uint32_t
     p.at.lo = lane_select(p.from_start, start, enter.lo);
     p.at.hi = lane_select(p.from_start, start, enter.hi);
 
-    // Each span is left once at most.
-    for (int pass = 0; pass < members.taken_spans; ++pass) {
-        Mask moved = mask_of(0);
-        for (int j = 0; j < members.taken_count; ++j) {
-            const LeafInLanes& leaf = members.taken[j];
-            for (int k = 0; k < leaf.count; ++k)
-                moved = lane_or(moved, p.leave(leaf.spans[k], leaf.number, start));
+    // What is taken away and stands in the unit; returns the rays that went on. Each span is left once at most.
+    const auto leave_members = [&] {
+        Mask any = mask_of(0);
+        for (int pass = 0; pass < members.taken_spans; ++pass) {
+            Mask moved = mask_of(0);
+            for (int j = 0; j < members.taken_count; ++j) {
+                const LeafInLanes& leaf = members.taken[j];
+                for (int k = 0; k < leaf.count; ++k)
+                    moved = lane_or(moved, p.leave(leaf.spans[k], leaf.number, start));
+            }
+            if (!lane_any(moved)) break;
+            any = lane_or(any, moved);
         }
-        if (!lane_any(moved)) break;
-    }
+        return any;
+    };
+    static_cast<void>(leave_members());
     if (cutters != kNone) {
         // Of rays that have found something nearer, or have left the core, nothing more needs to be known.
         const auto going = [&] {
@@ -395,6 +401,8 @@ HWY_INLINE std::uint32_t meet_core(Walker<8>& w, const Beam& beam, std::uint32_t
                 break;
             }
             searching = search_cutters(w, beam, cutters, first, searching, p, nearest);
+            // Behind a cutter the place may lie in one of those of the unit, and the other way about.
+            if (searching != 0) searching |= bits(leave_members());
             searching &= bits(going());
         }
     }

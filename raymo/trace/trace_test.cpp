@@ -199,6 +199,54 @@ TEST_CASE("trace: packets and single rays give the same bits") {
     CHECK(hits > 2000);
 }
 
+/// Whether each ray of a bundle of parallel rays meets something, in packets and alone, which must be the same.
+int count_met(const Solid& solid, Vec3 from, Vec3 direction, Vec3 spread) {
+    const auto compiled = compile(scene_of({solid}));
+    REQUIRE(compiled.has_value());
+    Tracer tracer(*compiled);
+    int met = 0;
+    for (int row = 0; row < 8; ++row) {
+        std::vector<RayQuery> queries(8);
+        for (std::size_t i = 0; i < 8; ++i) {
+            queries[i].ray = {from + spread * ((static_cast<double>(i) - 3.5) / 4.0) +
+                                  cross(unit(direction), spread) * ((row - 3.5) / 4.0),
+                              direction};
+        }
+        HitPacket hits;
+        const LaneBits found = tracer.first_hits(packed(queries), kAllLanes, hits);
+        for (std::size_t i = 0; i < 8; ++i) {
+            Hit alone;
+            const bool hit = tracer.first_hit(queries[i], alone);
+            CHECK(hit == ((found >> i & 1U) != 0));
+            if (!hit) continue;
+            ++met;
+            CHECK(alone.t == hits.hit(static_cast<int>(i)).t);
+            CHECK(alone.surface == hits.hit(static_cast<int>(i)).surface);
+        }
+    }
+    return met;
+}
+
+TEST_CASE("trace: what products in a union take away counts behind a shared cutter, too") {
+    const Solid far = meet(moved(sphere(1), {0, 30, 0}), moved(sphere(1), {0.5, 30, 0}));
+    const Solid bar = cut(block({10, 10, 10}), moved(block({40, 20, 20}), {2, -5, -5}));
+    const Solid all = csg::paint(cut(join(far, bar), moved(block({4, 20, 20}), {-1, -5, -5})), 0);
+    CHECK(count_met(all, {-10, 5, 5}, {1, 0, 0}, {0, 2, 0}) == 0);
+}
+
+TEST_CASE("trace: packets go through products of solids that are met several times") {
+    const Solid ring = primitive("torus", {3.0, 1.0});
+    const Solid tyre = primitive("torus", {3.2, 0.9});
+    const Solid product =
+        cut(cut(meet(ring, tyre), cylinder(3.0, 5.0)), moved(sphere(1), {3, 0, 0}));
+    CHECK(count_met(product, {-10, 0.1, 0.2}, {1, 0.02, 0.01}, {0, 3, 0}) > 5);
+    // Holes that are as deep as the plate: faces coincide at both ends.
+    const Solid plate = cut(cut(block({10, 10, 1}), moved(cylinder(1, 1), {3, 3, 0})),
+                            moved(block({4, 4, 1}), {5, 5, 0}));
+    CHECK(count_met(plate, {3, 3, 9}, {0, 0, -1}, {0.5, 0, 0}) == 0);
+    CHECK(count_met(plate, {5, 5, 9}, {0, 0, -1}, {4, 0, 0}) > 10);
+}
+
 TEST_CASE("trace: from within glass, packets and single rays give the same bits") {
     scene::Scene scene;
     scene.materials.resize(2);

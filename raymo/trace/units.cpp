@@ -192,7 +192,9 @@ private:
         }
     }
     [[nodiscard]] static bool has_leaves(const Product& product) {
-        return !product.united.empty() || !product.joined.empty();
+        return !product.united.empty() ||
+               std::any_of(product.joined.begin(), product.joined.end(),
+                           [](const auto& leaves) { return !leaves.empty(); });
     }
     /// Whether each list is a product that can stand in the tree as a whole; its core comes first then.
     [[nodiscard]] bool all_stand_together(std::vector<std::vector<std::uint32_t>>& joined) const {
@@ -201,11 +203,7 @@ private:
                 leaves.begin(), leaves.end(),
                 [&](std::uint32_t l) { return !data_.looks[solid_.leaves[l].look].cuts; });
             const std::vector<std::uint32_t> core(leaves.begin(), end_of_core);
-            // A cutter shows the material of what it cuts by its own product (see shown_by).
-            const bool lends = std::any_of(end_of_core, leaves.end(), [&](std::uint32_t l) {
-                return data_.looks[solid_.leaves[l].look].borrows;
-            });
-            return leaves.empty() || (!core.empty() && !lends && leaves.size() <= kMostTogether &&
+            return leaves.empty() || (!core.empty() && leaves.size() <= kMostTogether &&
                                       few_spans(core) && all_in_lanes(leaves));
         });
     }

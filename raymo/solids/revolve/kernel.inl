@@ -224,8 +224,9 @@ private:
         return apart;
     }
 
-    /// The place of a crossing in its part: Newton's method within a bracket, until what is left, judged by the last two
-    /// steps, is less than rounding.
+    /// The place of a crossing in its part: Newton's method within a bracket, until what is left is less than rounding. Behind a
+    /// step d that is F'' d^2 / 2 F', with F'' from how the slope has changed over the step before, and of the size that the
+    /// last two steps show.
     RAYMO_INLINE R place_in_part(const Search& at) {
         const R zero(0.0);
         const bool any_half =
@@ -233,8 +234,10 @@ private:
         R lo = zero;
         R hi(1.0);
         R u(0.5);
+        R found_at(0.5);
         R step(1.0);
         R before = zero;  // the last step, if it was one of Newton's
+        R slope_before = zero;
         M active = at.there;
         for (int i = 0; i < kProfileSteps && lane_any(active); ++i) {
             const LaneJet<R> a = lane_jet(at.part.a, u);
@@ -259,16 +262,22 @@ private:
             const R way = lane_abs(newton - u);
             const M good = lane_and(lane_and(newton > lo, newton < hi), way <= R(0.5) * step);
             // Next to the zero the bracket may end on its wrong side, by a rounding.
-            const M arrives = lane_or(
-                way <= R(0x1p-51), lane_and(good, way * way * way <= R(0x1p-54) * before * before));
-            const M steps = lane_or(good, arrives);
-            u = lane_select(active, lane_select(steps, newton, R(0.5) * (lo + hi)), u);
+            const R square_of_way = way * way;
+            const M settled = lane_and(
+                way <= R(0x1p-27), lane_and(lane_abs(slope - slope_before) * square_of_way <=
+                                                R(0x1p-53) * lane_abs(slope) * before,
+                                            way * square_of_way <= R(0x1p-54) * before * before));
+            const M arrives = lane_or(way <= R(0x1p-51), lane_and(good, settled));
+            found_at = lane_select(lane_and(active, arrives), lane_min(lane_max(newton, lo), hi),
+                                   found_at);
+            u = lane_select(good, newton, R(0.5) * (lo + hi));
+            slope_before = slope;
             step = lane_select(good, way, R(0.5) * (hi - lo));
             before = lane_select(good, way, zero);
             active = lane_and(active, lane_not(arrives));
         }
         leave(active);
-        return lane_min(lane_max(u, lo), hi);
+        return found_at;
     }
 
     /// s of the point of the ray that the point (r, z) of the contour is on, or next to.

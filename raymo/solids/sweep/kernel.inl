@@ -213,6 +213,7 @@ struct SweepLines {
 
     /// Adds where the lines that are `asked` are inside a piece.
     RAYMO_INLINE void meet(const solids::SweptPiece& piece, M asked) {
+        if (!lane_any(asked)) return;
         struct Part {
             LaneCubics<R> c;
             M there;
@@ -474,7 +475,7 @@ private:
     }
 };
 
-/// A frame about a direction of unit length [Duff17].
+/// make_frame (math/vec.hpp) for several directions.
 template <class R>
 RAYMO_INLINE void lane_frame(const Triple<R>& along, Triple<R>& side, Triple<R>& up) {
     const R one(1.0);
