@@ -149,6 +149,50 @@ TEST_CASE("volumes: area times height, and Pappus' rule") {
           doctest::Approx(2 * std::numbers::pi * 20 * rosette * 300 / 360).epsilon(3e-3));
 }
 
+/// The outline that is `margin` wide about a rectangle whose corners are (r, +-c) for two r: arcs at the corners.
+curves::OutlinePtr rounded(double near, double far, double c, double margin) {
+    curves::Curve curve;
+    const auto line = [&](Vec2 a, Vec2 b) { curve.spans.push_back(curves::segment(a, b)); };
+    curve.spans.push_back(curves::arc({far, -c}, margin, -90, 0));
+    line({far + margin, -c}, {far + margin, c});
+    curve.spans.push_back(curves::arc({far, c}, margin, 0, 90));
+    line({far, c + margin}, {near, c + margin});
+    curve.spans.push_back(curves::arc({near, c}, margin, 90, 180));
+    line({near - margin, c}, {near - margin, -c});
+    curve.spans.push_back(curves::arc({near, -c}, margin, 180, 270));
+    line({near, -c - margin}, {far, -c - margin});
+    curve.closed = true;
+    return outline({curve});
+}
+
+TEST_CASE("a nearly level ray at the height of a joint of a turned contour meets both sides") {
+    const double c = 0.6666666666666666;
+    const auto ring = Revolve::prepare(std::vector<Argument>{rounded(1.5, 3.0, c, 1.0), 360.0});
+    REQUIRE(ring.has_value());
+    int judged = 0;
+    for (const double joint : {-c, c}) {
+        for (int steps = -8; steps <= 8; ++steps) {
+            for (const double rise : {0.0, 1e-18, 1e-17, 3e-17, 1e-16, 1e-14, 1e-10}) {
+                for (const double sign : {1.0, -1.0}) {
+                    const Vec3 o{-10.0, 0.05, joint + steps * 0x1p-53};
+                    double shift;
+                    const SpanList spans = spans_of(*ring, o, {1.0, 1e-3, sign * rise}, shift);
+                    CAPTURE(joint);
+                    CAPTURE(steps);
+                    CAPTURE(sign * rise);
+                    CHECK_FALSE(spans.degenerate());
+                    REQUIRE(spans.size() == 2);
+                    for (std::size_t k = 0; k < 2; ++k)
+                        CHECK(spans[k].exit.s - spans[k].enter.s ==
+                              doctest::Approx(3.5).epsilon(0.01));
+                    ++judged;
+                }
+            }
+        }
+    }
+    CHECK(judged == 2 * 17 * 7 * 2);
+}
+
 TEST_CASE("revolve refuses what lies beyond its axis, and angles beyond a turn") {
     const auto beyond =
         Revolve::prepare(std::vector<Argument>{outline({rectangle({-1, 0}, {2, 1})}), 360.0});

@@ -14,6 +14,9 @@ inline constexpr double kProfileExact = 0x1p-58;
 /// How much the slope may change, as a part of itself, over the range in which a crossing may lie.
 inline constexpr double kProfileSteady = 0.25;
 
+/// Heights of a crossing and of the ray's place nearest to the axis, both at most 2, are known to less than this.
+inline constexpr double kProfileBlurred = 64.0 * kUnitRoundoff;
+
 /// Halvings of a piece, at most, before a ray is left over.
 inline constexpr int kProfileHalvings = 6;
 
@@ -184,10 +187,11 @@ private:
     RAYMO_INLINE M has_halves(const ProfilePart<R>& part, const R (&f)[7]) const {
         const R zero(0.0);
         const R one(1.0);
-        // A at both ends: mostly of one sign.
+        // A at both ends: mostly of one sign. Both are outside, by the signs of F, which the neighbours see, too.
         const M low = part.a[0] < zero;
         const M high = part.a[3] < zero;
-        M apart = lane_or(lane_and(low, lane_not(high)), lane_and(high, lane_not(low)));
+        M apart = lane_and(lane_or(lane_and(low, lane_not(high)), lane_and(high, lane_not(low))),
+                           lane_not(f[0] < zero));
         if (!lane_any(apart)) return apart;
         const LaneSigns<M> signs = lane_signs<3, M>(part.a, zero);
         R changes = zero;
@@ -198,7 +202,7 @@ private:
                                                     lane_and(next, lane_not(here))),
                                             one, zero);
         }
-        apart = lane_and(signs.one, lane_and(changes > R(1.5), changes < R(2.5)));
+        apart = lane_and(lane_and(apart, signs.one), lane_and(changes > R(1.5), changes < R(2.5)));
         if (!lane_any(apart)) return apart;
         // C^2 - B^2
         const R(&b)[4] = part.b;
@@ -305,7 +309,11 @@ private:
         const R r = x.value * inverse_w;
         const R tr = x.slope * w.value - x.value * w.slope;
         const R tz = y.slope * w.value - y.value * w.slope;
-        const R s = place(r, y.value * inverse_w, at.half);
+        const R z = y.value * inverse_w;
+        const R s = place(r, z, at.half);
+        // Which half it is on must not depend on rounding.
+        const M blurred = lane_and(lane_and(flat, lane_abs(z - z_c) <= R(kProfileBlurred)),
+                                   lane_and(at.half<R(0.5), at.half> R(-0.5)));
         const R px = o.x + s * d.x;
         const R py = o.y + s * d.y;
         const R inverse_r = R(1.0) / lane_sqrt(px * px + py * py);
@@ -326,7 +334,7 @@ private:
         const M clear =
             lane_max(lane_abs(tr), lane_abs(tz)) > R(0x1p-26 * chord) * w.value * w.value;
         const M certain =
-            lane_and(lane_and(steady, within),
+            lane_and(lane_and(lane_and(steady, within), lane_not(blurred)),
                      lane_and(clear, lane_abs(s) < R(std::numeric_limits<double>::infinity())));
         leave(lane_and(at.there, lane_not(certain)));
         const R error = R(1.5) * ds + R(8.0 * kUnitRoundoff) * lane_abs(s);

@@ -28,6 +28,10 @@ constexpr double kOffAxis = 1024.0;
 /// How much the slope may change, as a part of itself, over the range in which a crossing may lie.
 constexpr double kSteady = 0.25;
 
+/// A, at a zero of F that is known to a unit roundoff or two, is wrong by less than this part of its largest coefficient: A' is
+/// at most 6 times that, and the evaluation adds as much again.
+constexpr double kBlurred = 16.0 * kUnitRoundoff;
+
 /// How far behind a zero that was found the sign must have changed.
 constexpr double kBeyond = 0x1p-48;
 
@@ -181,7 +185,7 @@ void ProfileLine::meet_upright(std::uint32_t i) {
     curves::find_roots<3>(f, e_.x + e_.y, roots);
     for (const curves::Root& root : roots) {
         if (root.crosses) {
-            cross_at(i, root.u, root.rises == (d_.z > 0.0) ? -1 : 1, 0);
+            cross_at(i, root.u, root.rises == (d_.z > 0.0) ? -1 : 1, 1);
         } else {
             out_.set_degenerate();
         }
@@ -224,11 +228,16 @@ void ProfileLine::meet_slanted(std::uint32_t i) {
                     slope = 2.0 * (a.value * a.slope + b.value * b.slope - c.value * c.slope);
                 },
                 rises);
-            cross_at(i, part.lo + width * u, rises == (d_.z > 0.0) ? 1 : -1, 0);
-            continue;
+            const int half = slant_ == Slant::flat ? half_of(part, u, rises) : 1;
+            if (half != 0) {
+                cross_at(i, part.lo + width * u, rises == (d_.z > 0.0) ? 1 : -1, half);
+                continue;
+            }
         }
         if (changes == 0 && is_monotone(f)) continue;
-        if (slant_ == Slant::flat && changes == 2 && split_halves(i, part)) continue;
+        // By the signs of F at the ends, which the neighbours see, too.
+        const bool outside = f[0] >= 0.0 && f[6] >= 0.0;
+        if (slant_ == Slant::flat && changes == 2 && outside && split_halves(i, part)) continue;
         if (width <= kShortest || (*most <= noise_ && *least >= -noise_)) {
             // Tangent, or in the wall.
             out_.set_degenerate();
@@ -242,6 +251,17 @@ void ProfileLine::meet_slanted(std::uint32_t i) {
         open[count++] = right;
         open[count++] = left;
     }
+}
+
+int ProfileLine::half_of(const Part& part, double u, bool rises) const {
+    double a = value_at(part.a, u);
+    if (std::fabs(a) <= kBlurred * curves::size_of(part.a)) {
+        const Bernstein<6> k =
+            sum_of(product(part.c, part.c), product(part.b, part.b), -1.0);  // C^2 - B^2
+        if (!(*std::min_element(k.begin(), k.end()) > 0.0)) return 0;
+        a = rises ? part.a[3] : part.a[0];
+    }
+    return (a > 0.0) == (d_.z > 0.0) ? 1 : -1;
 }
 
 bool ProfileLine::split_halves(std::uint32_t i, const Part& part) {
@@ -283,7 +303,6 @@ double ProfileLine::place(Vec2 p, int half) const {
     if (slant_ == Slant::flat && along * across_ <= p.x * std::fabs(d_.z)) {
         return s_c_ + rise / d_.z;
     }
-    if (half == 0) half = (rise < 0.0) == (d_.z < 0.0) ? 1 : -1;
     return s_c_ + half * along / across_;
 }
 
@@ -362,7 +381,7 @@ void ProfileLine::meet_corner(std::uint32_t i) {
     const bool halves = slant_ == Slant::level || slant_ == Slant::flat;
     for (const int half : {1, -1}) {
         if (!halves && half < 0) break;
-        double s = place(p, halves ? half : 0);
+        double s = place(p, half);
         if (halves) {
             s = s_c_ + half * std::sqrt(std::max((p.x - rho_) * (p.x + rho_), 0.0)) / across_;
         }

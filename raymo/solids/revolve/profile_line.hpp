@@ -11,7 +11,10 @@
 // of the halves: so F keeps its digits where it is small because A, B and C are.
 //
 // Nearly perpendicular to the axis both halves of the hyperbola nearly coincide, and F nearly has double roots: one for each
-// half. These are told apart by  g = A -+ sqrt(C^2 - B^2), which is zero on one half each. At d.z = 0 the roots of A count
+// half. These are told apart by  g = A -+ sqrt(C^2 - B^2), which is zero on one half each. Where F has one zero in a part, A
+// has its half's sign there; and if |A| is lost in rounding, as where a joint is at the height of a ray that is nearly level, at
+// that end of the part where F > 0: between the zero and there A^2 > C^2 - B^2, so A can not change its sign where the right
+// side is positive. At d.z = 0 the roots of A count
 // twice; parallel to the axis (D = 0) the wall is met where x = rho w.
 //
 // Errors. As for every surface, a ray that is off by e crosses it ds = |n|.e / |n.d| earlier or later, n the wall's normal, as
@@ -47,7 +50,9 @@ private:
     void meet_slanted(std::uint32_t i);
     /// The two roots, one of each half, of a part in which A changes its sign once; false: it is not certain that there are.
     bool split_halves(std::uint32_t i, const Part& part);
-    /// A crossing at u; `half` is +1 or -1 where it is known which half of the hyperbola it is on, else 0.
+    /// Which half of the hyperbola the only zero of F in a part is on, +1 or -1; 0: it is not known. F `rises` there or falls.
+    [[nodiscard]] int half_of(const Part& part, double u, bool rises) const;
+    /// A crossing at u; `half`: +1 after, -1 before the place nearest to the axis, of flat and level rays.
     void cross_at(std::uint32_t i, double u, int turn, int half);
     void meet_corner(std::uint32_t i);
     /// s of the point of the ray that a point of the contour is on, or next to.
