@@ -193,6 +193,26 @@ TEST_CASE("a nearly level ray at the height of a joint of a turned contour meets
     CHECK(judged == 2 * 17 * 7 * 2);
 }
 
+TEST_CASE("a nearly level ray is certain beside a wall that is nearer to the axis") {
+    // A hair-thin slope between two heights, which tells by how much a ray was moved.
+    const std::array<Vec2, 3> slope{Vec2{0.27, -0.03}, {0.17, -0.03 - 3e-8}, {0.17, -0.1}};
+    const auto solid = Revolve::prepare(std::vector<Argument>{
+        outline({curves::closed_polygon(slope), rectangle({0.01, -0.5}, {0.6, 0.5})}), 360.0});
+    REQUIRE(solid.has_value());
+    for (const double rise : {0.0, 1e-18, 1e-17, -1e-17, 1e-16, 1e-12, 1e-9}) {
+        for (const double off : {-1e-9, 1e-9, 1e-8}) {
+            double shift;
+            const SpanList spans =
+                spans_of(*solid, {-2.0, 0.15, -0.03 - 3e-8 + off}, {1.0, 0.0, rise}, shift);
+            CAPTURE(rise);
+            CAPTURE(off);
+            CHECK_FALSE(spans.degenerate());
+            CHECK_FALSE(spans.touched());
+            CHECK(spans.size() == 3);
+        }
+    }
+}
+
 TEST_CASE("revolve refuses what lies beyond its axis, and angles beyond a turn") {
     const auto beyond =
         Revolve::prepare(std::vector<Argument>{outline({rectangle({-1, 0}, {2, 1})}), 360.0});

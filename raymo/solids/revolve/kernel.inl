@@ -76,6 +76,11 @@ struct ProfileLines {
     }
 
     RAYMO_INLINE void meet(const curves::Piece& piece, M asked) {
+        // Not where all of the piece, which is monotone, is nearer to the axis than the ray.
+        const R inner = rho - er;
+        asked = lane_and(asked, lane_or(R(piece.x[0]) >= inner * R(piece.w[0]),
+                                        R(piece.x[3]) >= inner * R(piece.w[3])));
+        if (!lane_any(asked)) return;
         leave_corner(piece, asked);
         ProfilePart<R> part;
         for (int k = 0; k < 4; ++k) {
@@ -350,18 +355,20 @@ private:
     /// Leaves rays that come near the end of a piece, or to where it begins or ends on the axis.
     RAYMO_INLINE void leave_corner(const curves::Piece& piece, M asked) {
         for (const std::size_t end : {0U, 3U}) {
-            if (piece.x[end] > 0x1p-20) continue;
-            const Triple<R> to{R(0.0) - o.x, R(0.0) - o.y, R(piece.y[end]) - o.z};
+            const Vec2 tip = piece.point(end);
+            if (tip.x > 0x1p-20) continue;
+            const Triple<R> to{R(0.0) - o.x, R(0.0) - o.y, R(tip.y) - o.z};
             const R along = dot(to, d) / (length * length);
             const Triple<R> off = abs(to - d * along);
             const M near = lane_and(lane_and(off.x <= er, off.y <= er), off.z <= ez);
-            leave(lane_and(asked, lane_and(near, R(piece.x[end]) <= er)));
+            leave(lane_and(asked, lane_and(near, R(tip.x) <= er)));
         }
         leave(lane_and(asked, er > R(0x1p-20)));
         // Where the curve runs on smoothly a ray that only touches it finds a zero on both sides.
         if (!piece.ends_in_corner) return;
-        const R r(piece.x[3]);
-        const R z(piece.y[3]);
+        const Vec2 corner = piece.point(3);
+        const R r(corner.x);
+        const R z(corner.y);
         const R steep_s = (z - o.z) * inverse_dz;
         const R x = o.x + steep_s * d.x;
         const R y = o.y + steep_s * d.y;

@@ -194,6 +194,8 @@ void ProfileLine::meet_upright(std::uint32_t i) {
 
 void ProfileLine::meet_slanted(std::uint32_t i) {
     const Piece& piece = region_.pieces()[i];
+    const double inner = rho_ - 4.0 * (e_.x + e_.y);
+    if (std::max(piece.point(0).x, piece.point(3).x) < inner) return;
     Part whole{{}, {}, {}, 0.0, 1.0};
     for (std::size_t k = 0; k < 4; ++k) {
         const double w = piece.w[k];
@@ -215,6 +217,7 @@ void ProfileLine::meet_slanted(std::uint32_t i) {
         const Bernstein<6> f = square_sum(part.a, part.b, part.c);
         const auto [least, most] = std::minmax_element(f.begin(), f.end());
         if (*least > noise_ || *most < -noise_) continue;
+        if (slant_ == Slant::flat && is_within(part, inner / rho_)) continue;
         const int changes = curves::sign_changes(f);
         const double width = part.hi - part.lo;
         const bool rises = f[0] < 0.0;
@@ -251,6 +254,13 @@ void ProfileLine::meet_slanted(std::uint32_t i) {
         open[count++] = right;
         open[count++] = left;
     }
+}
+
+bool ProfileLine::is_within(const Part& part, double share) const {
+    for (std::size_t k = 0; k < 4; ++k) {
+        if (!(std::fabs(part.c[k]) < share * std::fabs(part.b[k]))) return false;
+    }
+    return true;
 }
 
 int ProfileLine::half_of(const Part& part, double u, bool rises) const {

@@ -7,7 +7,8 @@
 //     F = A^2 + B^2 - C^2 = 0,   C = d.z x,
 // with, for a flat ray (d.z^2 <= D),  A = sqrt(D) (z - z_c w),  B = d.z rho w, and for a steep one, where z_c may be far away,
 //     (A, B) = d.z (o.x, o.y) w + (z - o.z w) (d.x, d.y).
-// F is positive on the axis' side [Wijk86 3.5]. A, B and C are cubics in Bernstein form; they are halved, and F is formed
+// F is positive on the axis' side [Wijk86 3.5], and so it is, whatever the rounding of A, where the contour is nearer to the axis
+// than the ray. A, B and C are cubics in Bernstein form; they are halved, and F is formed
 // of the halves: so F keeps its digits where it is small because A, B and C are.
 //
 // Nearly perpendicular to the axis both halves of the hyperbola nearly coincide, and F nearly has double roots: one for each
@@ -50,6 +51,8 @@ private:
     void meet_slanted(std::uint32_t i);
     /// The two roots, one of each half, of a part in which A changes its sign once; false: it is not certain that there are.
     bool split_halves(std::uint32_t i, const Part& part);
+    /// Whether a part, for a flat ray, is nearer to the axis than `share` times rho.
+    [[nodiscard]] bool is_within(const Part& part, double share) const;
     /// Which half of the hyperbola the only zero of F in a part is on, +1 or -1; 0: it is not known. F `rises` there or falls.
     [[nodiscard]] int half_of(const Part& part, double u, bool rises) const;
     /// A crossing at u; `half`: +1 after, -1 before the place nearest to the axis, of flat and level rays.
