@@ -213,6 +213,27 @@ TEST_CASE("a nearly level ray is certain beside a wall that is nearer to the axi
     }
 }
 
+TEST_CASE("next to the axis a ray that was moved off the wall is certain") {
+    // A cone nearly from the axis on, and rays along it, moved by little.
+    const double least = 0x1p-26;
+    const std::array<Vec2, 3> cone{Vec2{0.0555556, 0.0837}, {least, -0.083}, {least, 0.0837}};
+    const auto solid = Revolve::prepare(std::vector<Argument>{
+        outline({curves::closed_polygon(cone), rectangle({least, -0.5}, {0.6, 0.5})}), 360.0});
+    REQUIRE(solid.has_value());
+    const Vec3 d = unit(Vec3{0.0, 0.0555556 - least, 0.0837 + 0.083});
+    const Vec3 across = cross(d, {1.0, 0.0, 0.0});
+    for (const double off : {1e-10, 1e-9, 4e-9, -1e-10, -1e-9, -4e-9}) {
+        for (const double aside : {0.3, -0.7}) {
+            const Vec3 o = Vec3{0.0, least, -0.083} + across * off + Vec3{aside * off, 0.0, 0.0};
+            double shift;
+            const SpanList spans = spans_of(*solid, o, d, shift);
+            CAPTURE(off);
+            CAPTURE(aside);
+            CHECK_FALSE(spans.degenerate());
+        }
+    }
+}
+
 TEST_CASE("revolve refuses what lies beyond its axis, and angles beyond a turn") {
     const auto beyond =
         Revolve::prepare(std::vector<Argument>{outline({rectangle({-1, 0}, {2, 1})}), 360.0});

@@ -117,7 +117,7 @@ ProfileLine::ProfileLine(const curves::Region& region, const LocalRay<double>& r
     s_c_ = -(o_.x * d_.x + o_.y * d_.y) / (across_ * across_);
     z_c_ = o_.z + s_c_ * d_.z;
     rho_ = std::fabs(o_.x * d_.y - o_.y * d_.x) / across_;
-    noise_ = 2.0 * (up * up * (e_.x + e_.y) + up * across_ * e_.z);
+    off_ = up * (e_.x + e_.y) + across_ * e_.z;
 }
 
 void ProfileLine::meet_all() {
@@ -196,6 +196,7 @@ void ProfileLine::meet_slanted(std::uint32_t i) {
     const Piece& piece = region_.pieces()[i];
     const double inner = rho_ - 4.0 * (e_.x + e_.y);
     if (std::max(piece.point(0).x, piece.point(3).x) < inner) return;
+    const double off = off_ * curves::size_of(piece.w);
     Part whole{{}, {}, {}, 0.0, 1.0};
     for (std::size_t k = 0; k < 4; ++k) {
         const double w = piece.w[k];
@@ -216,7 +217,9 @@ void ProfileLine::meet_slanted(std::uint32_t i) {
         const Part part = open[--count];
         const Bernstein<6> f = square_sum(part.a, part.b, part.c);
         const auto [least, most] = std::minmax_element(f.begin(), f.end());
-        if (*least > noise_ || *most < -noise_) continue;
+        const double reach = curves::size_of(part.a) + curves::size_of(part.b);
+        const double noise = off * (2.0 * reach + off);
+        if (*least > noise || *most < -noise) continue;
         if (slant_ == Slant::flat && is_within(part, inner / rho_)) continue;
         const int changes = curves::sign_changes(f);
         const double width = part.hi - part.lo;
@@ -241,7 +244,7 @@ void ProfileLine::meet_slanted(std::uint32_t i) {
         // By the signs of F at the ends, which the neighbours see, too.
         const bool outside = f[0] >= 0.0 && f[6] >= 0.0;
         if (slant_ == Slant::flat && changes == 2 && outside && split_halves(i, part)) continue;
-        if (width <= kShortest || (*most <= noise_ && *least >= -noise_)) {
+        if (width <= kShortest || (*most <= noise && *least >= -noise)) {
             // Tangent, or in the wall.
             out_.set_degenerate();
             continue;

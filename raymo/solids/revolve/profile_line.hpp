@@ -11,6 +11,9 @@
 // than the ray. A, B and C are cubics in Bernstein form; they are halved, and F is formed
 // of the halves: so F keeps its digits where it is small because A, B and C are.
 //
+// Where the ray is off by e, (A, B) is off by a = |d.z| (e.x + e.y) + sqrt(D) e.z at most, and F by 2 a |(A, B)| + a^2: next to the
+// axis, where |(A, B)| is small, that is little.
+//
 // Nearly perpendicular to the axis both halves of the hyperbola nearly coincide, and F nearly has double roots: one for each
 // half. These are told apart by  g = A -+ sqrt(C^2 - B^2), which is zero on one half each. Where F has one zero in a part, A
 // has its half's sign there; and if |A| is lost in rounding, as where a joint is at the height of a ray that is nearly level, at
@@ -69,7 +72,7 @@ private:
     double across_;  ///< sqrt(D)
     double s_c_ = 0.0, z_c_ = 0.0, rho_ = 0.0;
     Slant slant_ = Slant::steep;
-    double noise_ = 0.0;  ///< of F
+    double off_ = 0.0;  ///< how far (A, B) may be off, for w = 1
     Crossings& out_;
 };
 
