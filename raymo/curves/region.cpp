@@ -17,6 +17,13 @@ constexpr double kNearestCuts = 0x1p-30;
 
 constexpr std::uint32_t kLeafPieces = 1;
 
+/// Pieces that are nearer to each other than this may be taken for one another at a point that was computed, which lies within
+/// 2^-40 of its curve (lane_normals.inl).
+constexpr double kTogether = 0x1p-38;
+
+/// Boxes that are looked at, at most, to find what a piece may meet.
+constexpr int kMostBoxes = 512;
+
 /// x' w - x w': zero where x / w is stationary.
 Bernstein<5> turning(const std::array<double, 4>& x, const std::array<double, 4>& w) {
     return sum_of(product(derivative(x), w), product(x, derivative(w)), -1.0);
@@ -58,6 +65,27 @@ std::vector<double> cuts_of(const Span2& s) {
         return false;
     });
     return cuts;
+}
+
+/// Whether the hulls of both lie on different sides of the chord of one.
+bool are_apart(const Span2& a, const Span2& b) {
+    for (const Span2* const s : {&a, &b}) {
+        const Vec2 chord = s->point(3) - s->point(0);
+        const Vec2 n{chord.y, -chord.x};
+        const double margin = kTogether * norm(n);
+        double least[2], most[2];
+        for (const std::size_t which : {0U, 1U}) {
+            const Span2& span = which == 0 ? a : b;
+            least[which] = most[which] = dot(n, span.point(0));
+            for (const std::size_t k : {1U, 2U, 3U}) {
+                const double height = dot(n, span.point(k));
+                least[which] = std::min(least[which], height);
+                most[which] = std::max(most[which], height);
+            }
+        }
+        if (least[0] > most[1] + margin || least[1] > most[0] + margin) return true;
+    }
+    return false;
 }
 
 bool is_point(const Span2& s) {
@@ -130,6 +158,7 @@ Result<RegionPtr> Region::make(const Outline& outline, Vec2 centre, double scale
         return fail(ErrorCode::bad_argument, "the contour encloses nothing");
     region->nodes_.reserve(region->pieces_.size());
     region->add_node(0, static_cast<std::uint32_t>(region->pieces_.size()));
+    region->number_runs();
     return RegionPtr(std::move(region));
 }
 
@@ -181,30 +210,70 @@ void Region::add_curve(const Curve& curve, Vec2 centre, double scale, bool besid
                 piece.bend = std::max(piece.bend, std::fabs(c[k] - 2.0 * c[k + 1] + c[k + 2]));
         }
     }
-    if (first < end) number_runs(first);
 }
 
-/// A corner is a joint at which the tangent turns by more than rounding explains.
-void Region::number_runs(std::uint32_t first) {
-    const auto end = static_cast<std::uint32_t>(pieces_.size());
-    const auto is_corner = [&](std::uint32_t i) {
-        const Vec2 in = tangent(pieces_[pieces_[i].previous], 1.0);
-        const Vec2 out = tangent(pieces_[i], 0.0);
-        return std::fabs(cross(in, out)) > 0x1p-30 * norm(in) * norm(out) || dot(in, out) < 0.0;
-    };
-    std::uint32_t run = runs_;
-    for (std::uint32_t i = first; i < end; ++i) {
-        const bool corner = is_corner(i);
-        pieces_[pieces_[i].previous].ends_in_corner = corner;
-        if (i > first && corner) ++run;
-        pieces_[i].run = run;
+/// A corner is a joint at which the tangent turns by more than rounding explains. Pieces of one stretch that may meet, beside
+/// at a joint between them, become stretches of their own: there the stretch tells which of them is meant.
+void Region::number_runs() {
+    std::vector<bool> borders;
+    borders.reserve(pieces_.size());
+    for (const Piece& piece : pieces_) {
+        const Vec2 in = tangent(pieces_[piece.previous], 1.0);
+        const Vec2 out = tangent(piece, 0.0);
+        borders.push_back(std::fabs(cross(in, out)) > 0x1p-30 * norm(in) * norm(out) ||
+                          dot(in, out) < 0.0);
+        pieces_[piece.previous].ends_in_corner = borders.back();
     }
-    // The last stretch of a curve that closes smoothly goes on in the first.
-    if (run > runs_ && !is_corner(first)) {
-        for (std::uint32_t i = end; i-- > first && pieces_[i].run == run;) pieces_[i].run = runs_;
-        --run;
+    number_runs(borders);
+    bool any = false;
+    for (std::uint32_t i = 0; i < pieces_.size(); ++i) {
+        if (!meets_its_run(i)) continue;
+        any = true;
+        borders[i] = borders[pieces_[i].next] = true;
     }
-    runs_ = run + 1;
+    if (any) number_runs(borders);
+}
+
+void Region::number_runs(const std::vector<bool>& borders) {
+    runs_ = 0;
+    for (std::uint32_t first = 0; first < pieces_.size();) {
+        std::uint32_t run = runs_;
+        std::uint32_t end = first;
+        do {
+            if (end > first && borders[end]) ++run;
+            pieces_[end].run = run;
+            ++end;
+        } while (pieces_[end - 1].next == end);
+        // The last stretch of a curve that closes smoothly goes on in the first.
+        if (run > runs_ && !borders[first]) {
+            for (std::uint32_t i = end; pieces_[i - 1].run == run; --i) pieces_[i - 1].run = runs_;
+            --run;
+        }
+        runs_ = run + 1;
+        first = end;
+    }
+}
+
+bool Region::meets_its_run(std::uint32_t i) const {
+    const Piece& piece = pieces_[i];
+    if (pieces_[piece.previous].run != piece.run && pieces_[piece.next].run != piece.run)
+        return false;
+    const Box2 box = box_of(piece);
+    int boxes = 0;
+    bool met = false;
+    walk(
+        [&](const Box2& other) {
+            // Where there is so much about it, it may well be met.
+            met = met || ++boxes > kMostBoxes;
+            return !met && other.lo.x <= box.hi.x + kTogether &&
+                   other.hi.x >= box.lo.x - kTogether && other.lo.y <= box.hi.y + kTogether &&
+                   other.hi.y >= box.lo.y - kTogether;
+        },
+        [&](std::uint32_t k) {
+            met = met || (k != i && k != piece.next && k != piece.previous &&
+                          pieces_[k].run == piece.run && !are_apart(piece, pieces_[k]));
+        });
+    return met;
 }
 
 void Region::add_node(std::uint32_t first, std::uint32_t end) {

@@ -23,8 +23,10 @@ struct Piece : Span2 {
     /// The piece that begins where this one ends; or, where pieces on an axis are left out, behind them.
     std::uint32_t next = 0;
     std::uint32_t previous = 0;  ///< and the one that ends where this begins
-    std::uint32_t run = 0;  ///< number of the smooth stretch between two corners that it is part of
-    double bend = 0.0;      ///< largest second difference of its coefficients
+    /// Number of the smooth stretch that it is part of: between two corners, and without another piece of the same curve that
+    /// meets this one, but its neighbours.
+    std::uint32_t run = 0;
+    double bend = 0.0;            ///< largest second difference of its coefficients
     bool ends_in_corner = false;  ///< the tangent turns where it ends
 };
 
@@ -96,7 +98,11 @@ private:
                                                                     Vec2 centre, double scale,
                                                                     bool beside_axis);
     void add_curve(const Curve& curve, Vec2 centre, double scale, bool beside_axis);
-    void number_runs(std::uint32_t first);
+    void number_runs();
+    /// `borders`: of the stretches, where pieces begin.
+    void number_runs(const std::vector<bool>& borders);
+    /// Whether a piece may meet one of its stretch that is not its neighbour.
+    [[nodiscard]] bool meets_its_run(std::uint32_t i) const;
     void add_node(std::uint32_t first, std::uint32_t end);
 
     std::vector<Piece> pieces_;

@@ -122,6 +122,42 @@ TEST_CASE("support is the furthest point, normals are at right angles to the cur
     CHECK(region_of(sample_rectangle())->runs() == 4);
 }
 
+TEST_CASE(
+    "pieces of a smooth curve that meet, but at a joint between them, are told apart by their "
+    "stretches") {
+    // A figure of eight that passes the origin twice at joints, and one that crosses itself between joints.
+    for (const bool at_joints : {true, false}) {
+        Curve eight;
+        if (at_joints) {
+            eight.spans = {cubic({0, 0}, {9, 9}, {9, -9}, {0, 0}),
+                           cubic({0, 0}, {-9, 9}, {-9, -9}, {0, 0})};
+        } else {
+            eight.spans = {cubic({-1, -1}, {7, 7}, {9, -8}, {1, 0}),
+                           cubic({1, 0}, {-7, 8}, {-9, -9}, {-1, -1})};
+        }
+        eight.closed = true;
+        const auto region = *Region::make({{eight}, Fill::even_odd}, {0, 0}, 1.0);
+        const auto& pieces = region->pieces();
+        int met = 0;
+        for (std::uint32_t i = 0; i < pieces.size(); ++i) {
+            for (std::uint32_t k = 0; k < i; ++k) {
+                if (pieces[i].next == k || pieces[k].next == i) continue;
+                bool meets = false;
+                for (double u = 0.0; u <= 1.0; u += 0x1p-7) {
+                    for (double v = 0.0; v <= 1.0; v += 0x1p-7) {
+                        const Vec2 apart = point_at(pieces[i], u) - point_at(pieces[k], v);
+                        meets = meets || max_norm(apart) < 0.1;
+                    }
+                }
+                if (!meets) continue;
+                ++met;
+                CHECK(pieces[i].run != pieces[k].run);
+            }
+        }
+        CHECK(met > 0);
+    }
+}
+
 TEST_CASE("what encloses nothing is refused") {
     Curve point;
     point.spans = {segment({1, 1}, {1, 1})};

@@ -234,6 +234,54 @@ TEST_CASE("next to the axis a ray that was moved off the wall is certain") {
     }
 }
 
+/// Smooth curves that come back to the origin, twice.
+curves::OutlinePtr loops(Vec2 middle) {
+    curves::Curve curve;
+    const auto add = [&](Vec2 a, Vec2 b, Vec2 c, Vec2 d) {
+        curve.spans.push_back(curves::cubic(middle + a, middle + b, middle + c, middle + d));
+    };
+    add({0, 0}, {12, 9}, {-12, 9}, {0, 0});
+    add({0, 0}, {12, -9}, {-9, -12}, {-2, -3});
+    add({-2, -3}, {5, 6}, {5, 5}, {0, 0});
+    curve.closed = true;
+    return outline({curve});
+}
+
+template <class P>
+void check_facing(const std::vector<Argument>& arguments, Vec3 through, int least) {
+    const auto placed = P::prepare(arguments);
+    REQUIRE(placed.has_value());
+    Random random(3);
+    int judged = 0;
+    for (int i = 0; i < 3000; ++i) {
+        Vec3 d = random.direction();
+        if (random.chance(0.3)) d.z = 0.0;
+        double shift;
+        const Vec3 o = through - d * random.uniform(0, 3);
+        const SpanList spans = spans_of(*placed, o, d, shift);
+        if (spans.degenerate()) continue;
+        const Affine back = inverse(placed->to_object);
+        for (std::size_t k = 0; k < spans.size(); ++k) {
+            for (const bool enters : {true, false}) {
+                const SpanEnd& end = enters ? spans[k].enter : spans[k].exit;
+                const Vec3 n = unit(transposed_times(
+                    back.linear, placed->kernel.normal(back(o + d * (end.s + shift)), end.face)));
+                CAPTURE(i);
+                CHECK((enters ? -dot(n, d) : dot(n, d)) > -1e-3);
+                ++judged;
+            }
+        }
+    }
+    CHECK(judged > least);
+}
+
+TEST_CASE("where a smooth curve meets itself the normals are those of the walls that are met") {
+    check_facing<Prism>({loops({0, 0}), 4.0, false}, {0, 0, 2}, 3000);
+    check_facing<Conic>({loops({0, 0}), 4.0, 0.5, false}, {0, 0, 2}, 3000);
+    check_facing<Revolve>({loops({15, 0}), 360.0}, {15, 0, 0}, 3000);
+    check_facing<Revolve>({loops({15, 0}), 200.0}, {0, 15, 0}, 3000);
+}
+
 TEST_CASE("revolve refuses what lies beyond its axis, and angles beyond a turn") {
     const auto beyond =
         Revolve::prepare(std::vector<Argument>{outline({rectangle({-1, 0}, {2, 1})}), 360.0});
