@@ -101,12 +101,12 @@ curves::OutlinePtr random_outline(Random& random, bool beside_axis) {
     return std::make_shared<const curves::Outline>(std::move(outline));
 }
 
-Side classify(const curves::Outline& outline, Real x, Real y, Real margin) {
+Side classify(const curves::Outline& outline, Real x, Real y, Real margin, bool beside_axis) {
     int winding = 0;
     for (const curves::Curve& curve : outline.curves) {
         for (const curves::Span2& span : curve.spans) {
-            // On the line x = 0, of which points to the right only are asked about: a turned contour's axis.
-            if (span.x == std::array<double, 4>{} && x >= 0) continue;
+            // On the axis, beside which lie all points that are asked about.
+            if (beside_axis && span.x == std::array<double, 4>{}) continue;
             RealSpan real;
             for (std::size_t i = 0; i < 4; ++i) {
                 real.x[i] = static_cast<Real>(span.x[i]);

@@ -12,8 +12,9 @@ namespace raymo::laws {
 /// with x >= 0, some touching the line x = 0.
 [[nodiscard]] curves::OutlinePtr random_outline(Random& random, bool beside_axis);
 
-/// Where (x, y) is, when it is further than `margin` from the curves. Curves must be closed, or begin and end at x = 0: then
-/// the line x = 0 closes them.
-[[nodiscard]] Side classify(const curves::Outline& outline, Real x, Real y, Real margin);
+/// Where (x, y) is, when it is further than `margin` from the curves. These must be closed; or, `beside_axis`, where x >= 0 and
+/// what they have on the line x = 0 bounds nothing, begin and end there: then that line closes them.
+[[nodiscard]] Side classify(const curves::Outline& outline, Real x, Real y, Real margin,
+                            bool beside_axis);
 
 }  // namespace raymo::laws

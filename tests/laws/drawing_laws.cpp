@@ -43,11 +43,12 @@ OutlinePtr shape(Random& random) {
         "<path d='M0-9L5.3 7.3-8.6-2.8H8.6L-5.3 7.3Z'/>",
         "<path d='M-9 0q3-8 6 0t6 0 6 0V6q-3 4-6 0T-3 6-9 6z'/>",
         "<path d='M0 0C12 9-12 9 0 0S-9-12-2-3 5 5 0 0zM1 1l1e-6 3 2 0z'/>",
-        "<path d='M-5-5C-4-5 5-6 5-5 5-4 6 4 5 5C4 5-4 6-5 5-5 4-6-3-5-5M0 0Q2 1 3 0T3 3z'/>",
+        "<path d='M-5-5C-4-5 5-6 5-5 5-4 6 4 5 5C4 5-4 6-5 5-5 4-6-3-5-5M0 0Q2 0 3 0T3 3z'/>",
         "<rect width='9' height='5' rx='2' ry='1'/>",
         "<ellipse cx='1' cy='2' rx='9' ry='0.5'/>",
         "<polygon points='0,0 9,0 9,1e-9 3,1 9,2 0,9 0,5 0,5 0,5'/>",
         "<path d='M0 0a1e3 1e3 0 0 1 9 0v5a7 7 0 0 0-9 0zM8 4h1v-3z'/>",
+        "<path d='M0 0Q0 0 3 0Q3 3 3 3C3 3 0 3 0 3z'/>",
     });
     const double turn = random.chance(0.3) ? 90.0 * random.below(4) : random.uniform(0, 360);
     const bool is_even_odd = random.chance(0.5);
@@ -78,8 +79,9 @@ OutlinePtr placed(const OutlinePtr& drawn, bool beside_axis, Random& random) {
     }
     const Box2 now = curves::box_of(outline);
     Vec2 by = -now.centre();
-    // A little beyond the axis, or nearly touching it.
-    if (beside_axis) by.x = -now.lo.x + (random.chance(0.5) ? 0x1p-20 : random.uniform(0.1, 1));
+    // A little beyond the axis, or nearly touching it: nearer, a ray that is moved aside again and again, each time by four times
+    // as much, may miss the hole.
+    if (beside_axis) by.x = -now.lo.x + (random.chance(0.5) ? 0x1p-14 : random.uniform(0.1, 1));
     for (curves::Curve& curve : outline.curves) {
         for (curves::Span2& span : curve.spans)
             span = curves::mapped(span, {1, 0, by.x, 0, 1, by.y});
@@ -87,25 +89,25 @@ OutlinePtr placed(const OutlinePtr& drawn, bool beside_axis, Random& random) {
     return std::make_shared<const Outline>(std::move(outline));
 }
 
-/// Through a point at which two curves meet: along the axes, along the curve, or anywhere. Where more than two do, there is no
-/// one normal to be judged: then any ray.
-AimedRay ray_at_joint(const Outline& outline, Random& random) {
+/// Through a point at which curves meet: along the axes, along the curve, or anywhere. `is_turned`: what is turned about z.
+AimedRay ray_at_joint(const Outline& outline, bool is_turned, Random& random) {
     const curves::Curve& curve = outline.curves[static_cast<std::size_t>(
         random.below(static_cast<int>(outline.curves.size())))];
     const curves::Span2& span =
         curve.spans[static_cast<std::size_t>(random.below(static_cast<int>(curve.spans.size())))];
     const Vec2 at = span.point(0);
-    const Vec2 along = span.point(1) - at;
-    int meeting = 0;
-    for (const curves::Curve& other : outline.curves) {
-        for (const curves::Span2& s : other.spans) meeting += s.point(0) == at ? 1 : 0;
-    }
-    if (meeting > 1) return any_ray(random, 5.0, 0.5);
-    const Vec3 p{at.x, at.y, random.uniform(-1, 3)};
+    Vec2 along = span.point(1) - at;
+    if (!(max_norm(along) > 0.0)) along = span.point(3) - at;
+    const double turn = random.chance(0.5) ? 90.0 * random.below(4) : random.uniform(0, 360);
+    const SinCos angle = sin_cos_degrees(turn);
+    const auto placed = [&](Vec2 v, double z) {
+        return is_turned ? Vec3{v.x * angle.cos, v.x * angle.sin, v.y} : Vec3{v.x, v.y, z};
+    };
+    const Vec3 p = placed(at, random.uniform(-1, 3));
     Vec3 d = random.direction();
     const int kind = random.below(4);
     if (kind == 0) d = random.axis();
-    if (kind == 1) d = {along.x, along.y, 0};
+    if (kind == 1) d = placed(along, 0.0);
     if (kind == 2) d.z = 0;
     if (!(max_norm(d) > 1e-3)) d = {0, 0, 1};
     return {{p - d * random.uniform(0, 3), d}, kLoose};
@@ -141,8 +143,8 @@ void add(std::vector<Law>& laws, const std::string& name, std::initializer_list<
                      }
                      const double size = max_norm(map.offset) + 40.0 * scale;
                      for (std::uint64_t i = 0; i < kRaysEach; ++i) {
-                         const AimedRay aimed = !is_turned && random.chance(0.4)
-                                                    ? ray_at_joint(*outline, random)
+                         const AimedRay aimed = random.chance(0.4)
+                                                    ? ray_at_joint(*outline, is_turned, random)
                                                     : any_ray(random, 5.0, 0.5);
                          const Ray ray{map(aimed.ray.origin), map.linear * aimed.ray.direction};
                          judge_ray(traced, *traced.model(), ray, size, aimed.rounding, random,
@@ -158,7 +160,8 @@ void add(std::vector<Law>& laws, const std::string& name, std::initializer_list<
 void add_drawing_laws(std::vector<Law>& laws) {
     add(laws, "letters", {"prism", "conic", "revolve"},
         [font = font()](Random& random) { return letter(*font, random); });
-    add(laws, "drawn shapes", {"prism", "conic"}, [](Random& random) { return shape(random); });
+    add(laws, "drawn shapes", {"prism", "conic", "revolve"},
+        [](Random& random) { return shape(random); });
 }
 
 }  // namespace raymo::laws

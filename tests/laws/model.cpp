@@ -182,7 +182,7 @@ Side both(Side a, Side b) { return std::min(a, b); }
 Side classify_swept(const Model& m, const RealPoint& p, Real margin) {
     const auto n = [&](std::size_t i) { return static_cast<Real>(m.numbers[i]); };
     if (m.primitive == "revolve") {
-        const Side side = classify(*m.outline, std::hypot(p.x, p.y), p.z, margin);
+        const Side side = classify(*m.outline, std::hypot(p.x, p.y), p.z, margin, true);
         if (n(0) == 360 || side == Side::out) return side;
         const Real angle = n(0) * std::numbers::pi_v<Real> / 180;
         const Side start = side_of(-p.y, margin);
@@ -192,14 +192,14 @@ Side classify_swept(const Model& m, const RealPoint& p, Real margin) {
     const Real z = m.centred ? p.z + n(0) / 2 : p.z;
     const Side slab = side_of(std::fabs(z - n(0) / 2) - n(0) / 2, margin);
     if (slab == Side::out || m.primitive == "prism")
-        return slab == Side::out ? slab : both(slab, classify(*m.outline, p.x, p.y, margin));
+        return slab == Side::out ? slab : both(slab, classify(*m.outline, p.x, p.y, margin, false));
     // A conic sweep, seen at the scale of its lower end.
     const Real slope = (n(1) - 1) / n(0);
     const Real q = 1 + slope * z;
     const Real x = p.x / q, y = p.y / q;
     const Real wide = margin * (1 + std::fabs(slope) * std::hypot(x, y)) / q;
     if (!(q > 0) || !(wide < 1)) return Side::unclear;
-    return both(slab, classify(*m.outline, x, y, wide));
+    return both(slab, classify(*m.outline, x, y, wide, false));
 }
 
 RealMap inverse_of(const Affine& map) {
