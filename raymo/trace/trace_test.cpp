@@ -201,7 +201,9 @@ TEST_CASE("trace: packets and single rays give the same bits") {
 
 /// Whether each ray of a bundle of parallel rays meets something, in packets and alone, which must be the same.
 int count_met(const Solid& solid, Vec3 from, Vec3 direction, Vec3 spread) {
-    const auto compiled = compile(scene_of({solid}));
+    scene::Scene scene = scene_of({solid});
+    scene.materials.resize(1);
+    const auto compiled = compile(scene);
     REQUIRE(compiled.has_value());
     Tracer tracer(*compiled);
     int met = 0;
