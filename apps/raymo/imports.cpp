@@ -29,7 +29,7 @@ std::string with_slash(const std::string& path) { return path.ends_with('/') ? p
 
 }  // namespace
 
-Imports::Imports(const std::string& main, const Console& console) : console_(console) {
+Imports::Imports(const std::string& main) {
     if (main != "-") shown_ = folder_of(main);
     root_ = without_links(shown_.empty() ? "." : shown_);
     if (!root_.empty() && root_.back() != '/') root_ += '/';
@@ -53,7 +53,7 @@ Result<std::string> Imports::load(const std::string& from, const std::string& pa
         return fail(ErrorCode::io, in_quotes(path) + " is a folder, not a file",
                     "name a file in it, as in \"" + with_slash(path) + "name.raymo\"");
     }
-    Attempt<std::string> text = read_text(resolved, console_);
+    Attempt<std::string> text = read_regular(resolved);
     if (!text) return fail(ErrorCode::io, text.error().message, text.error().hint);
     resolved = shown_ + resolved.substr(root_.size());
     return *std::move(text);

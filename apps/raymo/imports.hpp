@@ -3,7 +3,6 @@
 
 #include <string>
 
-#include "apps/raymo/system/console.hpp"
 #include "raymo/core/result.hpp"
 
 namespace raymo::app {
@@ -13,7 +12,7 @@ namespace raymo::app {
 class Imports {
 public:
     /// `main` is the main file, or "-": then its folder is the current one.
-    Imports(const std::string& main, const Console& console);
+    explicit Imports(const std::string& main);
 
     /// `resolved` is the same for every way of naming the same file, and is how messages call it.
     /// Error: io, when the file can not be read or lies outside.
@@ -21,7 +20,6 @@ public:
                                            std::string& resolved) const;
 
 private:
-    const Console& console_;
     std::string
         shown_;  ///< the main file's folder as the user wrote it, with a slash; empty for the current one
     std::string root_;  ///< the same without links, from the root; empty when it can not be found

@@ -67,11 +67,11 @@ int Session::read() {
 
 Attempt<sml::Host> Session::host(Watch& watch) {
     sml::Host out;
-    const auto imports = std::make_shared<const Imports>(options.file, console);
+    const auto imports = std::make_shared<const Imports>(options.file);
     out.load = [imports](const std::string& from, const std::string& path, std::string& resolved) {
         return imports->load(from, path, resolved);
     };
-    out.font = [this](const std::string& name) { return find_font(name, console); };
+    out.font = [](const std::string& name) { return find_font(name); };
     out.answers = make_answers(&watch);
     out.print = [this](std::string_view line) { console.note(line); };
     out.limits.call_depth = options.call_depth;

@@ -61,17 +61,18 @@ int write_bytes(int descriptor, std::span<const std::uint8_t> bytes) {
     return 0;
 }
 
-}  // namespace
-
-Attempt<std::string> read_text(const std::string& path, const Console& console) {
-    const bool standard = path == "-";
-    const Descriptor file(standard ? dup(console.input())
-                                   : open(path.c_str(), O_RDONLY | O_CLOEXEC));
-    const std::string name = standard ? "standard input" : path;
+/// All that can be read from a file that is open. `must_be_regular`: nothing else is read.
+Attempt<std::string> read_all(const Descriptor& file, const std::string& name,
+                              bool must_be_regular) {
     if (file.get() < 0) return can_not("read", name, errno);
     struct stat info {};
-    if (fstat(file.get(), &info) == 0) {
-        if (S_ISDIR(info.st_mode)) return can_not("read", name, EISDIR);
+    if (fstat(file.get(), &info) != 0) {
+        if (must_be_regular) return can_not("read", name, errno);
+    } else if (S_ISDIR(info.st_mode)) {
+        return can_not("read", name, EISDIR);
+    } else if (must_be_regular && !S_ISREG(info.st_mode)) {
+        return trouble(kFileTrouble, "can not read " + in_quotes(name) + ": it is no file, but " +
+                                         (S_ISFIFO(info.st_mode) ? "a pipe" : "a device"));
     }
     const auto too_long = [&] {
         return trouble(kModelWrong, in_quotes(name) + " is longer than " +
@@ -94,6 +95,21 @@ Attempt<std::string> read_text(const std::string& path, const Console& console) 
         text.append(buffer.data(), static_cast<std::size_t>(got));
         if (text.size() > sml::kMaxTextBytes) return too_long();
     }
+}
+
+}  // namespace
+
+Attempt<std::string> read_text(const std::string& path, const Console& console) {
+    const bool standard = path == "-";
+    const Descriptor file(standard ? dup(console.input())
+                                   : open(path.c_str(), O_RDONLY | O_CLOEXEC));
+    return read_all(file, standard ? "standard input" : path, false);
+}
+
+Attempt<std::string> read_regular(const std::string& path) {
+    // Opening a pipe waits for a writer otherwise.
+    const Descriptor file(open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
+    return read_all(file, path, true);
 }
 
 Outputs::~Outputs() {

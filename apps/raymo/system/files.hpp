@@ -15,6 +15,9 @@ namespace raymo::app {
 /// All of a file ("-": standard input). Trouble: kFileTrouble when it can not be read or is a
 /// directory; kModelWrong when it is longer than sml::kMaxTextBytes, of which no more than that is read.
 [[nodiscard]] Attempt<std::string> read_text(const std::string& path, const Console& console);
+/// The same of what must be a file: pipes, devices and sockets, for which one might wait forever, are refused at once, as is
+/// "-", which is a name like any other.
+[[nodiscard]] Attempt<std::string> read_regular(const std::string& path);
 
 /// Where a result goes: a file, or standard output for "-".
 class Outputs {

@@ -72,8 +72,8 @@ bool keeps(FcPattern* asked, FcPattern* found, const char* property) {
     return FcPatternGetDouble(found, property, 0, &got) == FcResultMatch && got == wanted;
 }
 
-Result<sml::FontFile> read(const std::string& path, int face, const Console& console) {
-    Attempt<std::string> got = read_text(path, console);
+Result<sml::FontFile> read(const std::string& path, int face) {
+    Attempt<std::string> got = read_regular(path);
     if (!got) return fail(ErrorCode::io, got.error().message, got.error().hint);
     return sml::FontFile{*std::move(got), face};
 }
@@ -90,9 +90,9 @@ std::string install_hint(const std::string& family) {
 
 }  // namespace
 
-Result<sml::FontFile> find_font(const std::string& name, const Console& console) {
+Result<sml::FontFile> find_font(const std::string& name) {
     if (name == kDejaVuFamily) {
-        if (auto font = read(kDejaVu, 0, console)) return font;
+        if (auto font = read(kDejaVu, 0)) return font;
     }
     const Config config(FcInitLoadConfigAndFonts());
     if (config == nullptr) return no_such(name, install_hint(name));
@@ -141,7 +141,7 @@ Result<sml::FontFile> find_font(const std::string& name, const Console& console)
     if (files.empty()) return no_such(name, install_hint(family));
     int face = 0;
     FcPatternGetInteger(found.get(), FC_INDEX, 0, &face);
-    return read(files[0], face, console);
+    return read(files[0], face);
 }
 
 }  // namespace raymo::app

@@ -6,27 +6,22 @@
 namespace raymo::app {
 namespace {
 
-const Console& console() {
-    static const Console kConsole(-1, -1, -1);
-    return kConsole;
-}
-
 std::string error(const std::string& name) {
-    const auto found = find_font(name, console());
+    const auto found = find_font(name);
     return found ? "none" : found.error().message;
 }
 
 TEST_CASE("fonts are found by family, and by what tells them from others of it") {
-    const auto sans = find_font("DejaVu Sans", console());
+    const auto sans = find_font("DejaVu Sans");
     REQUIRE(sans.has_value());
     CHECK(sans->bytes.size() > 100000);
     CHECK(sans->face == 0);
-    const auto bold = find_font("DejaVu Sans:bold", console());
+    const auto bold = find_font("DejaVu Sans:bold");
     REQUIRE(bold.has_value());
     CHECK(bold->bytes != sans->bytes);
-    CHECK(find_font("DejaVu Sans:style=Bold", console())->bytes == bold->bytes);
-    CHECK(find_font("dejavu sans:bold", console())->bytes == bold->bytes);
-    CHECK(find_font("DejaVu Serif", console()).has_value());
+    CHECK(find_font("DejaVu Sans:style=Bold")->bytes == bold->bytes);
+    CHECK(find_font("dejavu sans:bold")->bytes == bold->bytes);
+    CHECK(find_font("DejaVu Serif").has_value());
 }
 
 TEST_CASE("no other font stands in for one that is not there") {
@@ -34,10 +29,9 @@ TEST_CASE("no other font stands in for one that is not there") {
           "there is no font \"No Such Font At All\" on this machine");
     CHECK(error("DejaVu Sans:style=Wobbly") ==
           "there is no font \"DejaVu Sans:style=Wobbly\" on this machine");
-    CHECK(find_font("DejaVu Sanz", console()).error().hint == "did you mean `DejaVu Sans`?");
-    CHECK(find_font("DejaVu Sans:style=Wobbly", console())
-              .error()
-              .hint.find("DejaVu Sans:style=Bold") != std::string::npos);
+    CHECK(find_font("DejaVu Sanz").error().hint == "did you mean `DejaVu Sans`?");
+    CHECK(find_font("DejaVu Sans:style=Wobbly").error().hint.find("DejaVu Sans:style=Bold") !=
+          std::string::npos);
     for (const std::string& name :
          {std::string(":bold"), std::string("A,B"), std::string("a\0b", 3), std::string("-12"),
           std::string(100000, 'x'), std::string("\xff\xfe"), std::string(":"),

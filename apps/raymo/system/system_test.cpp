@@ -96,6 +96,12 @@ TEST_CASE("files: reading what is missing, a folder, or too long") {
             0);
     CHECK(read_text(folder / "long.raymo", console).error().code == kModelWrong);
     CHECK(read_text("/dev/zero", console).error().code == kModelWrong);  // without an end
+    // What a model names must be a file: nobody writes into this pipe, ever.
+    REQUIRE(mkfifo((folder / "pipe.svg").c_str(), 0600) == 0);
+    CHECK(read_regular(folder / "pipe.svg").error().message ==
+          "can not read \"" + (folder / "pipe.svg") + "\": it is no file, but a pipe");
+    CHECK(read_regular("/dev/zero").error().code == kFileTrouble);
+    CHECK(read_regular(folder.path.string()).error().code == kFileTrouble);
 }
 
 TEST_CASE("files: names and suffixes") {
