@@ -21,6 +21,13 @@ std::string_view cut(std::string_view& text, char mark) {
     return out;
 }
 
+/// Whether a text is that word, which is in small letters; CSS does not tell them from capitals.
+bool is_word(std::string_view text, std::string_view word) {
+    return std::equal(text.begin(), text.end(), word.begin(), word.end(), [](char a, char b) {
+        return (a >= 'A' && a <= 'Z' ? static_cast<char>(a + 32) : a) == b;
+    });
+}
+
 std::string without_comments(std::string_view text) {
     std::string out;
     while (!text.empty()) {
@@ -44,28 +51,43 @@ bool has_class(std::string_view classes, std::string_view name) {
 }  // namespace
 
 void Style::set(std::string_view name, std::string_view value) {
-    std::string_view rest = value;
-    value = trimmed(cut(rest, '!'));  // "none !important"
-    if (value.empty() || value == "inherit") return;
-    if (name == "fill") is_filled = value != "none" && value != "transparent";
-    if (name == "fill-rule") is_even_odd = value == "evenodd";
-    if (name == "visibility") is_visible = value == "visible";
-    if (name == "display") is_shown = value != "none";
+    const std::string clean = without_comments(value);
+    say(name, clean, false);
+}
+
+void Style::say(std::string_view name, std::string_view value, bool is_important) {
+    value = trimmed(cut(value, '!'));
+    if (value.empty() || is_word(value, "inherit")) return;
+    Style said;
+    said.is_important_.fill(is_important);
+    if (is_word(name, "fill"))
+        said.is_filled = !is_word(value, "none") && !is_word(value, "transparent");
+    if (is_word(name, "fill-rule")) said.is_even_odd = is_word(value, "evenodd");
+    if (is_word(name, "visibility")) said.is_visible = is_word(value, "visible");
+    if (is_word(name, "display")) said.is_shown = !is_word(value, "none");
+    override_by(said);
 }
 
 void Style::set_all(std::string_view declarations) {
-    while (!declarations.empty()) {
-        std::string_view value = cut(declarations, ';');
+    const std::string clean = without_comments(declarations);
+    std::string_view rest = clean;
+    while (!rest.empty()) {
+        std::string_view value = cut(rest, ';');
         const std::string_view name = trimmed(cut(value, ':'));
-        set(name, value);
+        const std::size_t mark = std::min(value.find('!'), value.size());
+        say(name, value,
+            is_word(trimmed(value.substr(std::min(mark + 1, value.size()))), "important"));
     }
 }
 
 void Style::override_by(const Style& other) {
-    if (other.is_filled) is_filled = other.is_filled;
-    if (other.is_even_odd) is_even_odd = other.is_even_odd;
-    if (other.is_visible) is_visible = other.is_visible;
-    if (other.is_shown) is_shown = other.is_shown;
+    constexpr std::array kProperties{&Style::is_filled, &Style::is_even_odd, &Style::is_visible,
+                                     &Style::is_shown};
+    for (std::size_t i = 0; i < kProperties.size(); ++i) {
+        if (!(other.*kProperties[i]) || (is_important_[i] && !other.is_important_[i])) continue;
+        this->*kProperties[i] = other.*kProperties[i];
+        is_important_[i] = other.is_important_[i];
+    }
 }
 
 void StyleSheet::add(std::string_view text) {

@@ -1,6 +1,7 @@
 // Which shapes of a drawing are filled, and by which rule: as attributes, in `style`, or by a style sheet [SVG11 6].
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -15,12 +16,17 @@ struct Style {
     std::optional<bool> is_visible;   ///< visibility
     std::optional<bool> is_shown;     ///< display
 
-    /// Takes a property; one that is not of these four is nothing.
+    /// Takes an attribute; one that is not of these four is nothing. Values are in letters of either case.
     void set(std::string_view name, std::string_view value);
-    /// Takes "fill: none; stroke: red".
+    /// Takes "fill: none; stroke: red", in letters of either case, with comments.
     void set_all(std::string_view declarations);
-    /// What `other` says goes before what is said here.
+    /// What `other` says goes before what is said here, unless that is important and the other is not.
     void override_by(const Style& other);
+
+private:
+    void say(std::string_view name, std::string_view value, bool is_important);
+
+    std::array<bool, 4> is_important_{};  ///< by the order of the properties
 };
 
 /// Rules with selectors of one element: `path`, `.logo`, `#front`, `path.logo.red`, `*`, and lists of them. Others, those with

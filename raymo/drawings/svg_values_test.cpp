@@ -80,6 +80,29 @@ TEST_CASE("styles: what is said last, and nearer to the element, goes before") {
     CHECK(*style.is_shown);
     CHECK(*style.is_even_odd);
 
+    // Neither capitals nor comments matter, and what is important stays.
+    for (const char* none : {"fill:NONE", "FILL:none", "/*x*/fill:none", "fill:/* ; */none",
+                             "fill:none!IMPORTANT;fill:red", "fill: Transparent"}) {
+        CAPTURE(none);
+        Style said;
+        said.set_all(none);
+        CHECK(*said.is_filled == false);
+    }
+    Style attribute;
+    attribute.set("fill", "NONE/**/");
+    CHECK(*attribute.is_filled == false);
+    StyleSheet strict;
+    strict.add("path { fill: none !important } #a { fill: red }");
+    Style stays = strict.of("path", "a", "");
+    CHECK(*stays.is_filled == false);
+    Style own;
+    own.set_all("fill: red");
+    stays.override_by(own);
+    CHECK(*stays.is_filled == false);
+    own.set_all("fill: red !important");
+    stays.override_by(own);
+    CHECK(*stays.is_filled);
+
     StyleSheet sheet;
     sheet.add(
         "/* a { fill: none } */ @import 'x'; @media print { path { fill: none } }"
