@@ -17,6 +17,8 @@ using curves::OutlinePtr;
 constexpr std::size_t kMostShapes = 1000000;
 constexpr std::size_t kMostVisits = 10000000;
 constexpr std::size_t kMostUses = 100;
+/// Bytes of an id that messages show.
+constexpr std::size_t kMostShown = 60;
 
 /// What a view box shows, mapped to a viewport.
 Affine2 view_map(const ViewBox& box, Vec2 corner, Vec2 size, const Aspect& aspect) {
@@ -196,18 +198,18 @@ private:
     void open_use(const SvgElement& e, Frame frame) {
         if (e.href.empty()) return;
         if (e.href[0] != '#') {
-            fail_at(e, "`use` of \"" + e.href.substr(0, 60) + "\", which is another file",
+            fail_at(e, "`use` of \"" + shortened(e.href, kMostShown) + "\", which is another file",
                     "copy what is used into this one");
             return;
         }
         const auto found = document_.ids.find(e.href.substr(1));
         if (found == document_.ids.end()) {
-            fail_at(e, "`use` of \"" + e.href.substr(0, 60) + "\", which is not there");
+            fail_at(e, "`use` of \"" + shortened(e.href, kMostShown) + "\", which is not there");
             return;
         }
         for (const Frame& around : open_) {
             if (around.element != found->second) continue;
-            fail_at(e, "`use` of \"" + e.href.substr(0, 60) + "\" within itself");
+            fail_at(e, "`use` of \"" + shortened(e.href, kMostShown) + "\" within itself");
             return;
         }
         if (++uses_ > kMostUses) {
@@ -322,7 +324,7 @@ Result<Drawn> Drawing::contour(std::string_view id, bool takes_unfilled, const G
         const auto found = document_->ids.find(std::string(id));
         if (found == document_->ids.end()) {
             return fail(ErrorCode::name, document_->name + " has no element with the id \"" +
-                                             std::string(id) + "\"");
+                                             shortened(id, kMostShown) + "\"");
         }
         selected = found->second;
     }

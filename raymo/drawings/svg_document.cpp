@@ -116,8 +116,7 @@ private:
         const bool is_ours = space == std::string_view::npos || name.substr(0, space) == kSvgSpace;
         if (space != std::string_view::npos) name.remove_prefix(space + 1);
         if (document_.elements.empty() && (!is_ours || name != "svg")) {
-            stop_at(here_,
-                    "this is no SVG: it begins with <" + std::string(name.substr(0, 40)) + ">");
+            stop_at(here_, "this is no SVG: it begins with <" + shortened(name, 40) + ">");
             return;
         }
         if (open_.size() >= kMostNested) {

@@ -217,6 +217,24 @@ TEST_CASE("errors name line and column of what is wrong") {
     CHECK(error("<svg>&none;</svg>").find("undefined entity") != std::string::npos);
 }
 
+TEST_CASE("messages show whole characters") {
+    CHECK(shortened("abc", 3) == "abc");
+    CHECK(shortened("a\n\tc", 3) == "a  ...");
+    CHECK(shortened("aéé", 4) == "aé...");
+    CHECK(shortened("\u20ac", 2) == "...");
+    CHECK(shortened("", 2).empty());
+    std::string many = "a";
+    for (int i = 0; i < 40; ++i) many += "é";
+    const std::string shown = "a" + many.substr(1, 58) + "...";
+    CHECK(error(drawing("<use href='" + many + "'/>"))
+              .ends_with("`use` of \"" + shown + "\", which is another file"));
+    CHECK(error(drawing("<g/>"), many).ends_with("the id \"" + shown + "\""));
+    CHECK(
+        error(drawing("<rect width='3" + many + "'/>")).find("\"" + many.substr(0, 15) + "...\"") !=
+        std::string::npos);
+    CHECK(error("<" + many + "/>").ends_with("begins with <" + many.substr(0, 39) + "...>"));
+}
+
 TEST_CASE("files of any size and shape: limits hold") {
     std::string laughs = "<!DOCTYPE svg [<!ENTITY a0 'ha'>";
     for (int i = 1; i < 30; ++i) {

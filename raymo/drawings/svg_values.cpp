@@ -13,9 +13,21 @@ bool is_space(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r' |
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
 
+/// Bytes of a value that messages show.
+constexpr std::size_t kMostShown = 16;
+
 Misfit misfit(std::size_t at, std::string what) { return {at, std::move(what)}; }
 
 }  // namespace
+
+std::string shortened(std::string_view text, std::size_t most) {
+    std::size_t end = std::min(most, text.size());
+    while (end < text.size() && end > 0 && (static_cast<unsigned char>(text[end]) & 0xc0) == 0x80)
+        --end;
+    std::string out(text.substr(0, end));
+    std::replace_if(out.begin(), out.end(), is_space, ' ');
+    return end < text.size() ? out + "..." : out;
+}
 
 void Scanner::skip_spaces() {
     while (at_ < text_.size() && is_space(text_[at_])) ++at_;
@@ -42,18 +54,8 @@ bool Scanner::is_at_number() const {
 
 tl::unexpected<Misfit> Scanner::expected(std::string_view what) const {
     if (is_done()) return tl::unexpected(misfit(at_, std::string(what) + " is missing at the end"));
-    constexpr std::size_t kMost = 16;
-    std::size_t end = std::min(at_ + kMost, text_.size());
-    // Whole characters only.
-    while (end < text_.size() && end > at_ &&
-           (static_cast<unsigned char>(text_[end]) & 0xc0) == 0x80)
-        --end;
-    std::string found(text_.substr(at_, end - at_));
-    for (char& c : found) {
-        if (is_space(c)) c = ' ';
-    }
-    return tl::unexpected(misfit(at_, std::string(what) + " is missing before \"" + found +
-                                          (end < text_.size() ? "...\"" : "\"")));
+    return tl::unexpected(misfit(at_, std::string(what) + " is missing before \"" +
+                                          shortened(text_.substr(at_), kMostShown) + "\""));
 }
 
 Read<double> Scanner::number() {
@@ -128,7 +130,7 @@ Read<Length> read_length(std::string_view text) {
             return Length{is_part ? *number / 100.0 : *number, known.mm};
     }
     return tl::unexpected(
-        misfit(at, "\"" + std::string(text.substr(std::min(at, text.size()), 16)) +
+        misfit(at, "\"" + shortened(text.substr(std::min(at, text.size())), kMostShown) +
                        "\" is none of the units px, mm, cm, in, pt, pc, Q and %"));
 }
 
@@ -197,10 +199,10 @@ Read<Affine2> read_function(Scanner& scanner) {
     const auto* const known =
         std::find_if(kKnown.begin(), kKnown.end(), [&](const Known& k) { return k.name == name; });
     if (known == kKnown.end())
-        return tl::unexpected(
-            misfit(at, "the transformations are matrix, translate, scale, rotate, skewX and skewY" +
-                           (name.empty() ? std::string()
-                                         : ", not \"" + std::string(name.substr(0, 16)) + "\"")));
+        return tl::unexpected(misfit(
+            at,
+            "the transformations are matrix, translate, scale, rotate, skewX and skewY" +
+                (name.empty() ? std::string() : ", not \"" + shortened(name, kMostShown) + "\"")));
     scanner.skip_spaces();
     if (scanner.peek() != '(') return scanner.expected("\"(\"");
     scanner.skip();

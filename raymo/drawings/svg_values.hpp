@@ -19,6 +19,10 @@ struct Misfit {
 template <class T>
 using Read = tl::expected<T, Misfit>;
 
+/// A value as a message shows it: its first `most` bytes at most, in whole characters, then "..." where more follows; white
+/// space is blanks.
+[[nodiscard]] std::string shortened(std::string_view text, std::size_t most);
+
 /// Reads a value from its beginning to its end.
 class Scanner {
 public:
