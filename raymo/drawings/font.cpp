@@ -6,6 +6,7 @@
 #include FT_OUTLINE_H
 #include FT_TRUETYPE_TABLES_H
 
+#include <algorithm>
 #include <cstdlib>
 #include <cstring>
 #include <unordered_map>
@@ -118,12 +119,15 @@ private:
 constexpr const char* kUnused[] = {"pcf",        "bdf",     "winfonts", "pfr", "type42", "t1cid",
                                    "autofitter", "raster1", "smooth",   "sdf", "bsdf",   "ot-svg"};
 
+constexpr std::size_t kFewSizes = 64;
+
 }  // namespace
 
 struct Font::Glyph {
     Outline outline;
     double advance = 0.0;
     std::unordered_map<double, std::weak_ptr<const Outline>> scaled;
+    std::size_t next_sweep = kFewSizes;  ///< sizes at which those that nobody holds are forgotten
 };
 
 struct Font::State {
@@ -252,10 +256,11 @@ Result<curves::OutlinePtr> Font::outline(std::uint32_t index, double size, bool&
     if (!found) return Failure(std::move(found).error());
     Glyph& glyph = **found;
     if (glyph.outline.curves.empty()) return curves::OutlinePtr();
-    // Sizes that nobody holds any more are forgotten before their list grows long.
-    constexpr std::size_t kMostSizes = 64;
-    if (glyph.scaled.size() >= kMostSizes)
+    // Sizes that nobody holds any more are forgotten whenever their list has doubled: once for each of them on the average.
+    if (glyph.scaled.size() >= glyph.next_sweep) {
         std::erase_if(glyph.scaled, [](const auto& known) { return known.second.expired(); });
+        glyph.next_sweep = std::max(kFewSizes, 2 * glyph.scaled.size());
+    }
     std::weak_ptr<const Outline>& known = glyph.scaled[size];
     if (curves::OutlinePtr held = known.lock(); held != nullptr) return held;
     Outline scaled = glyph.outline;

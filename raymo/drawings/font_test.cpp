@@ -126,6 +126,20 @@ TEST_CASE("equal letters of one size are one outline while somebody holds it") {
     CHECK(*font->outline(font->glyph_of(U' '), 0.01, is_new) == nullptr);
 }
 
+TEST_CASE("a letter in many sizes that are all held takes time in proportion") {
+    // Looking at all sizes for each new one would take minutes for these.
+    const FontPtr font = sans();
+    const std::uint32_t dot = font->glyph_of(U'.');
+    constexpr int kSizes = 100000;
+    std::vector<curves::OutlinePtr> held;
+    bool is_new = false;
+    for (int i = 1; i <= kSizes; ++i) held.push_back(*font->outline(dot, i, is_new));
+    for (int i = 1; i <= kSizes; i += 997) {
+        CHECK(*font->outline(dot, i, is_new) == held[static_cast<std::size_t>(i - 1)]);
+        CHECK_FALSE(is_new);
+    }
+}
+
 TEST_CASE("every curve of a letter ends exactly where the next begins") {
     const FontPtr font = sans();
     for (char32_t c = 0x21; c < 0x7f; ++c) {
