@@ -37,7 +37,10 @@ using Key = std::tuple<const SvgElement*, bool, std::array<std::uint64_t, 6>>;
 class Walk {
 public:
     Walk(const SvgDocument& document, bool takes_unfilled, const GoOn& go_on)
-        : document_(document), takes_unfilled_(takes_unfilled), go_on_(go_on) {}
+        : document_(document),
+          takes_unfilled_(takes_unfilled),
+          go_on_(go_on),
+          is_open_(document.elements.size()) {}
 
     Result<Drawn> run(std::uint32_t selected) {
         // From the root to the element: what it lies in moves it and says how it is filled.
@@ -53,6 +56,7 @@ public:
             const std::uint32_t next = open_.back().next_child;
             if (next == kNoElement) {
                 uses_ -= document_.elements[open_.back().element].tag == SvgTag::use ? 1 : 0;
+                is_open_[open_.back().element] = false;
                 open_.pop_back();
                 continue;
             }
@@ -179,7 +183,7 @@ private:
             case SvgTag::svg:
             case SvgTag::symbol:
             case SvgTag::hidden:
-                open_.push_back(frame);
+                push(frame);
                 return;
             case SvgTag::use:
                 open_use(e, frame);
@@ -195,6 +199,11 @@ private:
         }
     }
 
+    void push(const Frame& frame) {
+        is_open_[frame.element] = true;
+        open_.push_back(frame);
+    }
+
     void open_use(const SvgElement& e, Frame frame) {
         if (e.href.empty()) return;
         if (e.href[0] != '#') {
@@ -207,8 +216,7 @@ private:
             fail_at(e, "`use` of \"" + shortened(e.href, kMostShown) + "\", which is not there");
             return;
         }
-        for (const Frame& around : open_) {
-            if (around.element != found->second) continue;
+        if (is_open_[found->second]) {
             fail_at(e, "`use` of \"" + shortened(e.href, kMostShown) + "\" within itself");
             return;
         }
@@ -217,7 +225,7 @@ private:
             return;
         }
         frame.next_child = found->second;
-        open_.push_back(frame);
+        push(frame);
     }
 
     void add_shape(const SvgElement& e, const Frame& frame) {
@@ -296,6 +304,7 @@ private:
     bool takes_unfilled_;
     const GoOn& go_on_;
     std::vector<Frame> open_;
+    std::vector<bool> is_open_;  ///< by element: whether a frame of it is open
     std::vector<curves::Contour> shapes_;
     std::map<Key, OutlinePtr> images_;
     Drawn drawn_;

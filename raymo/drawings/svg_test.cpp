@@ -186,6 +186,15 @@ TEST_CASE("use: of itself, of nothing, nested too deep, and too often") {
     }
     CHECK(error(drawing("<defs>" + bomb + "</defs><use href='#e29'/>"))
               .ends_with("the drawing has more than a million shapes"));
+    // At the bottom of ten thousand groups: each `use` asks one element whether it is open.
+    std::string deep, ends, uses;
+    for (int i = 0; i < 9000; ++i) {
+        deep += "<g>";
+        ends += "</g>";
+    }
+    for (int i = 0; i < 100000; ++i) uses += "<use href='#r'/>";
+    CHECK(read(drawing("<defs><rect id='r' width='1' height='1'/></defs>" + deep + uses + ends))
+              .shapes == 100000);
     std::string chain = "<g id='e0'/>";
     for (int i = 1; i < 200; ++i)
         chain += "<use id='e" + std::to_string(i) + "' href='#e" + std::to_string(i - 1) + "'/>";
