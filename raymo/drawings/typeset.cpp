@@ -51,7 +51,7 @@ std::string name_of(char32_t c) {
     return "U+" + std::string(out.size() < 4 ? 4 - out.size() : 0, '0') + out;
 }
 
-/// Characters that show nothing in any font.
+/// Characters that show nothing, whatever the font has for them: a soft hyphen shows only where a line is broken.
 bool is_ignorable(char32_t c) {
     return c == U'\r' || c == 0xAD || (c >= 0x200B && c <= 0x200F) ||
            (c >= 0x202A && c <= 0x202E) || (c >= 0x2060 && c <= 0x2064) ||
@@ -68,9 +68,9 @@ public:
             finish_line();
             return {};
         }
+        if (is_ignorable(c)) return {};
         const std::uint32_t glyph = font_.glyph_of(c == U'\t' ? U' ' : c);
         if (glyph == 0) {
-            if (is_ignorable(c)) return {};
             return Failure(Error{ErrorCode::bad_argument,
                                  "the font \"" + font_.name() + "\" has no character " + name_of(c),
                                  "this has it as character " + std::to_string(number + 1),

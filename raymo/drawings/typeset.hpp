@@ -26,8 +26,8 @@ struct SetText {
     double width = 0.0;       ///< of the longest line: how far its pen goes, spaces counted [mm]
 };
 
-/// Sets lines, parted by U+000A, the first on the base line y = 0. U+0009 is as wide as four spaces; U+000D and characters
-/// that are there to join or part others (U+200B and the like) are left out when the font has none.
+/// Sets lines, parted by U+000A, the first on the base line y = 0. U+0009 is as wide as four spaces; U+000D, the soft
+/// hyphen U+00AD and characters that are there to join or part others (U+200B and the like) are left out.
 /// Letters are placed one by one, left to right, by their widths and the font's kerning: no ligatures, no joined scripts.
 /// `go_on` is asked every thousand characters; when it says no, the result is an error `cancelled`.
 /// Errors: out_of_range for the style (`argument` 1: size, 2: spacing, 3: line spacing); bad_argument for a character that

@@ -71,6 +71,10 @@ TEST_CASE("what shows nothing is no contour") {
         CHECK(set(*font, text).contour == nullptr);
     CHECK(set(*font, U"  ").width > 0.0);
     CHECK(set(*font, U"").width == 0.0);
+    // Not even where the font has a glyph for it.
+    CHECK(font->glyph_of(0xad) != 0);
+    CHECK(set(*font, U"\u00ad\u200d\r").contour == nullptr);
+    CHECK(set(*font, U"A\u00adV").width == set(*font, U"AV").width);
 }
 
 TEST_CASE("errors name the character, the style and the font") {
