@@ -67,9 +67,38 @@ std::vector<std::string> known(FcConfig* config, FcPattern* pattern, const char*
 /// Whether a font has what a name asks for: weights, slants and widths are numbers, and fontconfig takes the nearest.
 bool keeps(FcPattern* asked, FcPattern* found, const char* property) {
     double wanted = 0.0;
-    if (FcPatternGetDouble(asked, property, 0, &wanted) != FcResultMatch) return true;
+    const FcResult said = FcPatternGetDouble(asked, property, 0, &wanted);
+    if (said == FcResultNoMatch) return true;
     double got = 0.0;
-    return FcPatternGetDouble(found, property, 0, &got) == FcResultMatch && got == wanted;
+    return said == FcResultMatch && FcPatternGetDouble(found, property, 0, &got) == FcResultMatch &&
+           got == wanted;
+}
+
+/// Whether a name says one family, and once each only what is looked at afterwards. fontconfig takes sizes, languages and
+/// faces of a file as wishes, and forgets what it does not know: so the properties are read from the name as well.
+bool is_plain(FcPattern* asked, std::string_view name) {
+    static constexpr auto kProperties =
+        std::to_array<std::string_view>({FC_FAMILY, FC_STYLE, FC_WEIGHT, FC_SLANT, FC_WIDTH});
+    const auto is_known = [](std::string_view property) {
+        return std::find(kProperties.begin(), kProperties.end(), property) != kProperties.end();
+    };
+    FcPatternIter at;
+    FcPatternIterStart(asked, &at);
+    bool has_family = false;
+    for (bool more = FcPatternIterIsValid(asked, &at) != FcFalse; more;
+         more = FcPatternIterNext(asked, &at) != FcFalse) {
+        const std::string_view property = FcPatternIterGetObject(asked, &at);
+        if (!is_known(property) || FcPatternIterValueCount(asked, &at) != 1) return false;
+        has_family = has_family || (property == FC_FAMILY && !all(asked, FC_FAMILY).empty());
+    }
+    for (std::size_t colon = name.find(':'); colon != std::string_view::npos;) {
+        const std::size_t next = name.find(':', colon + 1);
+        const std::string_view part = name.substr(colon + 1, next - colon - 1);
+        const std::size_t equals = part.find('=');
+        if (equals != std::string_view::npos && !is_known(part.substr(0, equals))) return false;
+        colon = next;
+    }
+    return has_family;
 }
 
 Result<sml::FontFile> read(const std::string& path, int face) {
@@ -97,13 +126,12 @@ Result<sml::FontFile> find_font(const std::string& name) {
     const Config config(FcInitLoadConfigAndFonts());
     if (config == nullptr) return no_such(name, install_hint(name));
     const Pattern asked(name.find('\0') == std::string::npos ? FcNameParse(bytes(name)) : nullptr);
-    const std::vector<std::string> families =
-        asked == nullptr ? std::vector<std::string>() : all(asked.get(), FC_FAMILY);
-    if (families.size() != 1) {
+    if (asked == nullptr || !is_plain(asked.get(), name)) {
         return fail(ErrorCode::io, in_quotes(name) + " is no name of a font",
-                    "write a family, or a family and a style: \"DejaVu Sans:bold\"");
+                    "write a family, or a family and its style, weight, slant or width: "
+                    "\"DejaVu Sans:bold\"; a hyphen in a name is \"\\-\"");
     }
-    const std::string& family = families[0];
+    const std::string family = all(asked.get(), FC_FAMILY).front();
     const Pattern wanted(FcPatternDuplicate(asked.get()));
     FcConfigSubstitute(config.get(), wanted.get(), FcMatchPattern);
     FcDefaultSubstitute(wanted.get());

@@ -38,6 +38,14 @@ TEST_CASE("no other font stands in for one that is not there") {
           std::string("a:style="), std::string("\\")}) {
         CHECK(error(name) != "none");
     }
+    for (const char* name :
+         {"DejaVu Sans:index=7", "DejaVu Sans:foo=bar", "DejaVu Sans:charset=4e00",
+          "DejaVu Sans:lang=zz", "DejaVu Sans:matrix=2 0 0 2", "DejaVu Sans-12",
+          "DejaVu Sans:bold:light", "DejaVu Sans:weight=[80 200]", "DejaVu Sans:size=3"}) {
+        CAPTURE(name);
+        CHECK(error(name) != "none");
+    }
+    CHECK(find_font("DejaVu Sans:weight=200:slant=0").has_value());
 }
 
 }  // namespace
