@@ -282,13 +282,20 @@ private:
     /// Attributes give way to the sheet, and the sheet to `style`.
     Result<void> apply_sheet() {
         StyleSheet sheet;
-        sheet.add(sheet_text_);
-        std::uint32_t steps = 0;
+        const double before = bytes_;
+        if (!sheet.add(sheet_text_, [&](double bytes) { return go_on_(before + bytes); }))
+            return fail(ErrorCode::cancelled, "stopped");
+        bytes_ += sheet.bytes();
+        constexpr std::size_t kTestsBetweenQuestions = 65536;
+        std::size_t tests = 0;
         for (const Selected& s : selected_) {
             SvgElement& element = document_.elements[s.index];
-            if (!sheet.is_empty()) {
-                if (++steps % 64 == 0 && !go_on_(bytes_))
-                    return fail(ErrorCode::cancelled, "stopped");
+            if (sheet.size() > 0) {
+                tests += sheet.size();
+                if (tests >= kTestsBetweenQuestions) {
+                    tests = 0;
+                    if (!go_on_(bytes_)) return fail(ErrorCode::cancelled, "stopped");
+                }
                 element.style.override_by(sheet.of(s.tag, s.id, s.classes));
             }
             element.style.override_by(s.own);

@@ -90,7 +90,7 @@ void Style::override_by(const Style& other) {
     }
 }
 
-void StyleSheet::add(std::string_view text) {
+bool StyleSheet::add(std::string_view text, const GoOn& go_on) {
     const std::string clean = without_comments(text);
     std::string_view rest = clean;
     while (!rest.empty()) {
@@ -109,14 +109,18 @@ void StyleSheet::add(std::string_view text) {
         const std::string_view before = cut(rest, '{');
         Style style;
         style.set_all(cut(rest, '}'));
-        add_rules(before, style);
+        if (!add_rules(before, style, go_on)) return false;
     }
     std::stable_sort(rules_.begin(), rules_.end(),
                      [](const Rule& a, const Rule& b) { return a.rank < b.rank; });
+    return true;
 }
 
-void StyleSheet::add_rules(std::string_view selectors, const Style& style) {
-    while (!selectors.empty()) {
+bool StyleSheet::add_rules(std::string_view selectors, const Style& style, const GoOn& go_on) {
+    constexpr std::uint32_t kBetweenQuestions = 1024;
+    do {
+        if (++steps_ % kBetweenQuestions == 0 && !go_on(bytes_)) return false;
+        if (style.is_empty()) return true;
         std::string_view selector = trimmed(cut(selectors, ','));
         if (selector.empty() || selector.find_first_of(" \t\n\r\f>+~[]:") != std::string_view::npos)
             continue;
@@ -141,8 +145,14 @@ void StyleSheet::add_rules(std::string_view selectors, const Style& style) {
             }
             rule.rank += is_class ? 100 : 10000;
         }
+        // A list of rules that has just doubled is twice as long as what is in it.
+        bytes_ +=
+            2.0 * sizeof(Rule) + static_cast<double>(rule.tag.capacity() + rule.id.capacity());
+        for (const std::string& each : rule.classes)
+            bytes_ += static_cast<double>(sizeof(std::string) + each.capacity());
         rules_.push_back(std::move(rule));
-    }
+    } while (!selectors.empty());
+    return true;
 }
 
 Style StyleSheet::of(std::string_view tag, std::string_view id, std::string_view classes) const {

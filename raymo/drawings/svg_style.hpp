@@ -2,10 +2,13 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "raymo/drawings/svg_path.hpp"
 
 namespace raymo::drawings {
 
@@ -20,6 +23,10 @@ struct Style {
     void set(std::string_view name, std::string_view value);
     /// Takes "fill: none; stroke: red", in letters of either case, with comments.
     void set_all(std::string_view declarations);
+    /// Whether anything is said.
+    [[nodiscard]] bool is_empty() const {
+        return !is_filled && !is_even_odd && !is_visible && !is_shown;
+    }
     /// What `other` says goes before what is said here, unless that is important and the other is not.
     void override_by(const Style& other);
 
@@ -33,8 +40,10 @@ private:
 /// blanks, brackets or colons in them, and rules of @media and the like, are left out.
 class StyleSheet {
 public:
-    void add(std::string_view text);
-    [[nodiscard]] bool is_empty() const { return rules_.empty(); }
+    /// False when `go_on`, which is told the bytes that the rules take, says no.
+    [[nodiscard]] bool add(std::string_view text, const GoOn& go_on);
+    [[nodiscard]] std::size_t size() const { return rules_.size(); }
+    [[nodiscard]] double bytes() const { return bytes_; }
     /// What it says of an element; `classes` are parted by blanks.
     [[nodiscard]] Style of(std::string_view tag, std::string_view id,
                            std::string_view classes) const;
@@ -46,9 +55,11 @@ private:
         int rank = 0;  ///< of the selector: the higher goes before
         Style style;
     };
-    void add_rules(std::string_view selectors, const Style& style);
+    [[nodiscard]] bool add_rules(std::string_view selectors, const Style& style, const GoOn& go_on);
 
     std::vector<Rule> rules_;
+    double bytes_ = 0.0;
+    std::uint32_t steps_ = 0;
 };
 
 }  // namespace raymo::drawings

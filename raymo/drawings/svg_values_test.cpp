@@ -9,6 +9,8 @@
 namespace raymo::drawings {
 namespace {
 
+bool always(double) { return true; }
+
 TEST_CASE("lengths come in px, of which 96 are an inch, or as parts") {
     CHECK(read_length("12")->of(1.0) == 12.0);
     CHECK(read_length(" 12px ")->of(1.0) == 12.0);
@@ -92,7 +94,7 @@ TEST_CASE("styles: what is said last, and nearer to the element, goes before") {
     attribute.set("fill", "NONE/**/");
     CHECK(*attribute.is_filled == false);
     StyleSheet strict;
-    strict.add("path { fill: none !important } #a { fill: red }");
+    REQUIRE(strict.add("path { fill: none !important } #a { fill: red }", &always));
     Style stays = strict.of("path", "a", "");
     CHECK(*stays.is_filled == false);
     Style own;
@@ -104,10 +106,12 @@ TEST_CASE("styles: what is said last, and nearer to the element, goes before") {
     CHECK(*stays.is_filled);
 
     StyleSheet sheet;
-    sheet.add(
+    const bool is_read = sheet.add(
         "/* a { fill: none } */ @import 'x'; @media print { path { fill: none } }"
         ".out, #two { fill: none } path.out { fill: red } g > path { display: none }"
-        "* { visibility: hidden } rect { visibility: visible");
+        "* { visibility: hidden } rect { visibility: visible",
+        &always);
+    REQUIRE(is_read);
     CHECK(sheet.of("circle", "", "").is_filled == std::nullopt);
     CHECK(*sheet.of("circle", "", "x out").is_filled == false);
     CHECK(*sheet.of("path", "", "out").is_filled == true);
@@ -115,6 +119,25 @@ TEST_CASE("styles: what is said last, and nearer to the element, goes before") {
     CHECK(sheet.of("path", "", "").is_shown == std::nullopt);
     CHECK(*sheet.of("path", "", "").is_visible == false);
     CHECK(*sheet.of("rect", "", "").is_visible);
+}
+
+TEST_CASE("style sheets: rules are counted, may be stopped, and are kept if they say something") {
+    std::string text;
+    for (int i = 0; i < 5000; ++i) text += ".c" + std::to_string(i) + "{stroke:red}";
+    StyleSheet idle;
+    REQUIRE(idle.add(text, &always));
+    CHECK(idle.size() == 0);
+    CHECK_FALSE(idle.add(text, [](double) { return false; }));
+    for (int i = 0; i < 5000; ++i) text += ".c" + std::to_string(i) + ", #d{fill:none}";
+    StyleSheet sheet;
+    double most = 0.0;
+    REQUIRE(sheet.add(text, [&](double bytes) {
+        most = bytes;
+        return true;
+    }));
+    CHECK(sheet.size() == 10000);
+    CHECK(most > 0.8 * sheet.bytes());
+    CHECK(sheet.bytes() > 10000.0 * sizeof(Style));
 }
 
 }  // namespace
