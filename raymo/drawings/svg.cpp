@@ -60,9 +60,11 @@ public:
                 open_.pop_back();
                 continue;
             }
-            const SvgElement& within = document_.elements[open_.back().element];
-            const bool is_use = within.tag == SvgTag::use;
-            open_.back().next_child = is_use ? kNoElement : document_.elements[next].next_sibling;
+            const SvgTag within = document_.elements[open_.back().element].tag;
+            const bool is_use = within == SvgTag::use;
+            open_.back().next_child = is_use || within == SvgTag::choice
+                                          ? kNoElement
+                                          : document_.elements[next].next_sibling;
             visit(next, Frame(open_.back()), is_use ? open_.back().element : kNoElement, is_use);
         }
         if (failed_) return Failure(std::move(failure_));
@@ -179,6 +181,10 @@ private:
             return;
         enter(index, frame, user);
         switch (e.tag) {
+            case SvgTag::choice:
+                frame.next_child = chosen(e);
+                push(frame);
+                return;
             case SvgTag::group:
             case SvgTag::svg:
             case SvgTag::symbol:
@@ -197,6 +203,17 @@ private:
             default:
                 add_shape(e, frame);
         }
+    }
+
+    /// What a `switch` shows.
+    std::uint32_t chosen(const SvgElement& e) {
+        std::uint32_t child = e.first_child;
+        for (; child != kNoElement; child = document_.elements[child].next_sibling) {
+            const SvgElement& c = document_.elements[child];
+            if (!c.is_conditional && c.tag != SvgTag::hidden) break;
+            ++visits_;
+        }
+        return child;
     }
 
     void push(const Frame& frame) {

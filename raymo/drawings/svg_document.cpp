@@ -28,7 +28,7 @@ struct KnownTag {
 constexpr auto kTags = std::to_array<KnownTag>({
     {"g", SvgTag::group, nullptr},
     {"a", SvgTag::group, nullptr},
-    {"switch", SvgTag::group, nullptr},
+    {"switch", SvgTag::choice, nullptr},
     {"svg", SvgTag::svg, &kBox},
     {"symbol", SvgTag::symbol, &kBox},
     {"use", SvgTag::use, &kBox},
@@ -179,6 +179,8 @@ private:
                 selected.own.set_all(value);
             } else if (name == "href" && element.tag == SvgTag::use) {
                 element.href = value;
+            } else if (name == "systemLanguage" || name == "requiredExtensions") {
+                element.is_conditional = true;
             } else if (name == "transform") {
                 take(name, read_transform(value), element.transform);
             } else if (name == "viewBox" &&

@@ -17,7 +17,8 @@
 namespace raymo::drawings {
 
 enum class SvgTag : std::uint8_t {
-    group,   ///< g, a, switch
+    group,   ///< g, a
+    choice,  ///< switch: shows the first of what is in it that may show
     svg,     ///< the drawing itself, or one within it
     symbol,  ///< shows only where it is used
     hidden,  ///< defs, clipPath, marker and the like: what is in it shows only where it is used
@@ -38,6 +39,8 @@ struct SvgElement {
     std::uint32_t first_child = kNoElement;
     std::uint32_t next_sibling = kNoElement;
     std::size_t at = 0;  ///< byte of the file at which it begins
+    /// Shows only to readers of some language, or of something that SVG has not: never the choice of a `switch`.
+    bool is_conditional = false;
     Style style;
     Affine2 transform;
     /// By the order of the names of its tag in svg_document.cpp: x y width height rx ry, cx cy r, cx cy rx ry.

@@ -131,6 +131,20 @@ TEST_CASE("what is not filled, not visible or not shown is left out") {
     CHECK(others.images == 1);
 }
 
+TEST_CASE("a switch shows the first of its elements that may show") {
+    const std::string page = "viewBox='0 0 100 100' width='100mm' height='100mm'";
+    const std::string choices =
+        "<switch><foreignObject requiredExtensions='x'><rect width='9' height='9'/></foreignObject>"
+        "<rect systemLanguage='de' width='8' height='8'/><desc/><g><rect width='2' height='2'/>"
+        "<rect x='3' width='2' height='2'/></g><rect id='last' width='7' height='7'/></switch>";
+    const Drawn drawn = read(drawing(choices, page));
+    CHECK(drawn.shapes == 2);
+    check_box(drawn, {0, 98}, {5, 100});
+    CHECK(read(drawing(choices, page), "last").shapes == 1);
+    CHECK(read(drawing("<switch><rect systemLanguage='de' width='8' height='8'/></switch>", page))
+              .contour == nullptr);
+}
+
 TEST_CASE("an id selects an element where it lies, hidden or not") {
     const std::string text = drawing(
         "<g transform='translate(10 0)'><rect id='a' x='1' width='5' height='5'/><g id='b' "
