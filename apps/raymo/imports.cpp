@@ -51,7 +51,7 @@ Result<std::string> Imports::load(const std::string& from, const std::string& pa
     }
     if (struct stat info{}; stat(resolved.c_str(), &info) == 0 && S_ISDIR(info.st_mode)) {
         return fail(ErrorCode::io, in_quotes(path) + " is a folder, not a file",
-                    "name a file in it, as in \"" + with_slash(path) + "name.raymo\"");
+                    "name a file in it: \"" + with_slash(path) + "...\"");
     }
     Attempt<std::string> text = read_regular(resolved);
     if (!text) return fail(ErrorCode::io, text.error().message, text.error().hint);
