@@ -4,6 +4,7 @@
 #include <charconv>
 #include <cmath>
 
+#include "raymo/core/shown.hpp"
 #include "raymo/math/affine.hpp"
 
 namespace raymo::drawings {
@@ -229,6 +230,9 @@ Read<Affine2> read_function(Scanner& scanner) {
     if (name == "translate") return Affine2{1, 0, n[0], 0, 1, n[1]};
     if (name == "scale") return Affine2{n[0], 0, 0, 0, count == 2 ? n[1] : n[0], 0};
     const SinCos turn = sin_cos_degrees(n[0]);
+    if (name != "rotate" && turn.cos == 0.0)
+        return tl::unexpected(misfit(at, "the " + std::string(name) + " by " + shown(n[0]) +
+                                             " degrees is a right angle, which has no tangent"));
     if (name == "skewX") return Affine2{1, turn.sin / turn.cos, 0, 0, 1, 0};
     if (name == "skewY") return Affine2{1, 0, 0, turn.sin / turn.cos, 1, 0};
     const Affine2 about{1, 0, n[1], 0, 1, n[2]};

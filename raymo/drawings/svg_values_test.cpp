@@ -53,6 +53,11 @@ TEST_CASE("transformations are applied from the last to the first") {
     CHECK(misfit("rotate 3") == "7: \"(\" is missing before \"3\"");
     CHECK(misfit("rotate(3") == "8: a number is missing at the end");
     CHECK(misfit("scale()") == "0: scale takes 1 or 2 numbers, not 0");
+    CHECK(misfit("scale(2) skewX(90)") ==
+          "9: the skewX by 90 degrees is a right angle, which has no tangent");
+    CHECK(misfit("skewY(-270)") ==
+          "0: the skewY by -270 degrees is a right angle, which has no tangent");
+    CHECK(at("rotate(90)", {0, 1}) == Vec2{-1, 0});
     CHECK(misfit("matrix(1 2 3)") == "0: matrix takes 6 numbers, not 3");
     CHECK(misfit("rotate(1 2)") == "0: rotate takes 1 or 3 numbers, not 2");
     CHECK_FALSE(read_transform("translate(1 2 3 4 5 6 7 8)").has_value());
