@@ -230,15 +230,18 @@ private:
         }
         const auto found = document_.ids.find(e.href.substr(1));
         if (found == document_.ids.end()) {
-            fail_at(e, "`use` of \"" + shortened(e.href, kMostShown) + "\", which is not there");
+            fail_at(e, "`use` of \"" + shortened(e.href, kMostShown) + "\", which is not there",
+                    "copy what is used into this file, or leave out the `use`");
             return;
         }
         if (is_open_[found->second]) {
-            fail_at(e, "`use` of \"" + shortened(e.href, kMostShown) + "\" within itself");
+            fail_at(e, "`use` of \"" + shortened(e.href, kMostShown) + "\" within itself",
+                    "take it out of what it shows");
             return;
         }
         if (++uses_ > kMostUses) {
-            fail_at(e, "`use` is nested more than 100 deep", {}, ErrorCode::limit);
+            fail_at(e, "`use` is nested more than 100 deep", "let it show the shape itself",
+                    ErrorCode::limit);
             return;
         }
         frame.next_child = found->second;

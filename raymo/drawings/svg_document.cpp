@@ -120,7 +120,8 @@ private:
             return;
         }
         if (open_.size() >= kMostNested) {
-            stop_at(here_, "its elements are nested more than 10000 deep", {}, ErrorCode::limit);
+            stop_at(here_, "its elements are nested more than 10000 deep", "ungroup what it draws",
+                    ErrorCode::limit);
             return;
         }
         is_in_style_ = is_ours && name == "style";
@@ -210,7 +211,11 @@ private:
             const bool is_size = name != "x" && name != "y" && name != "cx" && name != "cy";
             take(name, read_length(value), element.lengths[i]);
             if (!failure_ && is_size && element.lengths[i]->value < 0.0)
-                stop_at(place_of(name, 0), "`" + std::string(name) + "` must be at least 0");
+                stop_at(place_of(name, 0),
+                        "`" + std::string(name) + "` must be at least 0, not \"" +
+                            shortened(value, 16) + "\"",
+                        name[0] == 'r' ? "write a radius without its sign"
+                                       : "sizes point to the right and downwards: move `x` or `y`");
         }
     }
 

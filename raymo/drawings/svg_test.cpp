@@ -229,7 +229,9 @@ TEST_CASE("errors name line and column of what is wrong") {
           "a.svg, line 1, column 31: in `height`, \" parsecs\" is none of the units px, mm, cm, "
           "in, pt, pc, Q and %");
     CHECK(error("<svg><rect width='-3'/></svg>") ==
-          "a.svg, line 1, column 19: `width` must be at least 0");
+          "a.svg, line 1, column 19: `width` must be at least 0, not \"-3\"");
+    CHECK(Drawing::read("a", "<svg><circle r='-3mm'/></svg>", &always).error().hint ==
+          "write a radius without its sign");
     CHECK(error("<svg><g transform='spin(3)'/></svg>")
               .starts_with("a.svg, line 1, column 20: in `transform`"));
     CHECK(error("<svg viewBox='0 0 1'/>").starts_with("a.svg, line 1, column 15: in `viewBox`"));

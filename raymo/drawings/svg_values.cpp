@@ -144,7 +144,8 @@ Read<ViewBox> read_view_box(std::string_view text) {
     const auto& n = *numbers;
     if (!(n[2] > 0.0 && n[3] > 0.0))
         return tl::unexpected(
-            misfit(0, "the width and the height of a view box must be greater than 0"));
+            misfit(0, "the width and the height of a view box must be greater than 0, not " +
+                          shown(n[2]) + " and " + shown(n[3])));
     return ViewBox{n[0], n[1], n[2], n[3]};
 }
 
@@ -169,7 +170,8 @@ Read<Aspect> read_aspect(std::string_view text) {
         out.y = part(place.substr(5));
     } else {
         return tl::unexpected(
-            misfit(at, "the aspect ratio is \"none\", or a place like \"xMidYMid\""));
+            misfit(at, "the aspect ratio is \"none\", or a place like \"xMidYMid\", not \"" +
+                           shortened(text.substr(at), kMostShown) + "\""));
     }
     scanner.skip_spaces();
     const std::string_view size = scanner.word();
