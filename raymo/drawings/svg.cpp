@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 #include <map>
+#include <numbers>
 #include <tuple>
 
 #include "raymo/drawings/svg_document.hpp"
@@ -295,7 +296,8 @@ private:
             const double ry = along(e, 5, view, rx);
             draw_rectangle(pen, {along(e, 0, view, 0.0), along(e, 1, view, 0.0)}, size, {rx, ry});
         } else if (e.tag == SvgTag::circle || e.tag == SvgTag::ellipse) {
-            const double diagonal = std::sqrt(0.5) * norm(view);
+            // That of a square to the last digit.
+            const double diagonal = view.x == view.y ? view.x : norm(view) / std::numbers::sqrt2;
             Vec2 r{length(e, 2, diagonal, 0.0), length(e, 2, diagonal, 0.0)};
             if (e.tag == SvgTag::ellipse) {
                 r.x = length(e, 2, view.x, length(e, 3, view.y, 0.0));

@@ -79,6 +79,12 @@ TEST_CASE("shapes: their boxes, percentages and radii") {
     check_box(read(drawing("<ellipse cx='50' cy='60' rx='10' ry='20'/>", page)), {40, 20},
               {60, 60});
     check_box(read(drawing("<rect width='50%' height='50%'/>", page)), {0, 50}, {100, 100});
+    const Box2 half =
+        curves::box_of(read(drawing("<circle cx='50%' cy='50%' r='50%'/>",
+                                    "viewBox='0 0 100 100' width='100mm' height='100mm'"))
+                           .contour);
+    CHECK(half.lo == Vec2{0, 0});
+    CHECK(half.hi == Vec2{100, 100});
     check_box(read(drawing("<polygon points='1,2 5,2 5,8'/>", page)), {1, 92}, {5, 98});
     check_box(read(drawing("<polyline points='1,2 5,2 5,8'/>", page)), {1, 92}, {5, 98});
     const Drawn round = read(drawing("<rect width='20' height='10' rx='2'/>", page));
