@@ -250,7 +250,11 @@ private:
     }
 
     void add_shape(const SvgElement& e, const Frame& frame) {
-        if (!frame.is_visible || frame.map.determinant() == 0.0) return;
+        if (!frame.is_visible) return;
+        if (frame.map.determinant() == 0.0) {
+            ++drawn_.flat;
+            return;
+        }
         OutlinePtr drawn = e.outline;
         if (drawn == nullptr) drawn = drawn_outline(e, frame);
         if (drawn == nullptr) return;

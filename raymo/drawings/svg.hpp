@@ -24,6 +24,7 @@ struct Drawn {
     double bytes = 0.0;        ///< that were made for it
     std::size_t shapes = 0;    ///< that it is the union of
     std::size_t unfilled = 0;  ///< shapes left out since they are not filled
+    std::size_t flat = 0;      ///< shapes left out since a page or a scale of 0 makes them flat
     std::size_t texts = 0;     ///< left out: letters are no curves in SVG
     std::size_t images = 0;    ///< left out
 };

@@ -125,7 +125,8 @@ std::string empty_hint(const drawings::Drawn& drawn) {
     if (drawn.unfilled > 0) return "its shapes are not filled; `unfilled: true` takes them as well";
     if (drawn.texts > 0) return "its texts are no curves: turn them into paths where you draw";
     if (drawn.images > 0) return "its pictures are no curves: trace them where you draw";
-    return {};
+    if (drawn.flat > 0) return "its shapes are flat: a `scale` or the size of the page is 0";
+    return "what counts is the inside of paths, rectangles, circles, ellipses and polygons";
 }
 
 // svg("logo.svg", id: "front")
@@ -163,7 +164,8 @@ bool svg(Call& call, Value& out) {
     }
     const std::size_t blamed = call.has(kId) ? kId : kFile;
     if (drawn->contour == nullptr) {
-        return call.fail(blamed, ErrorCode::empty, "nothing is filled in it", empty_hint(*drawn));
+        return call.fail(blamed, ErrorCode::empty, "nothing is filled in it", empty_hint(*drawn),
+                         fmt::format("this is {}", quoted(shortened(call[blamed].string()))));
     }
     if (!(curves::extent_of(drawn->contour) <= curves::kLargestCoordinate)) {
         return call.fail(blamed, ErrorCode::out_of_range,
