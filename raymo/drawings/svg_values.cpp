@@ -17,6 +17,20 @@ bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z')
 /// Bytes of a value that messages show.
 constexpr std::size_t kMostShown = 16;
 
+/// The power of ten of the first digit of a number that is not 0, which there is.
+double decimal_exponent(std::string_view number) {
+    const std::size_t e = std::min(number.find_first_of("eE"), number.size());
+    const std::size_t point = std::min(number.find('.'), e);
+    const std::size_t first = number.find_first_of("123456789");
+    double exponent = 0.0;
+    for (const char c : number.substr(e)) {
+        if (is_digit(c)) exponent = 10.0 * exponent + (c - '0');  // may become infinite
+    }
+    if (number.substr(e).find('-') != std::string_view::npos) exponent = -exponent;
+    return exponent + (first < point ? static_cast<double>(point - first) - 1.0
+                                     : static_cast<double>(point) - static_cast<double>(first));
+}
+
 Misfit misfit(std::size_t at, std::string what) { return {at, std::move(what)}; }
 
 }  // namespace
@@ -71,11 +85,8 @@ Read<double> Scanner::number() {
     const auto [stop, error] = std::from_chars(text_.data() + from, end, value);
     at_ = static_cast<std::size_t>(stop - text_.data());
     if (error == std::errc::result_out_of_range) {
-        // Too small is 0; from_chars does not tell it from too large, but its exponent does.
-        const std::string_view written = text_.substr(begin, at_ - begin);
-        const std::size_t e = written.find_first_of("eE");
-        if (e != std::string_view::npos && e + 1 < written.size() && written[e + 1] == '-')
-            return 0.0;
+        // from_chars does not tell too small from too large, but the place of the first digit that is not 0 does.
+        if (decimal_exponent(text_.substr(begin, at_ - begin)) < 0.0) return 0.0;
         return tl::unexpected(misfit(begin, "the number is too large"));
     }
     // "1em": the number ends before the e, which is where from_chars stops, too.

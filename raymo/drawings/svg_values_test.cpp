@@ -31,6 +31,27 @@ TEST_CASE("lengths come in px, of which 96 are an inch, or as parts") {
     CHECK(read_length("3furlongs").error().at == 1);
 }
 
+TEST_CASE("numbers too small to be told from 0 are 0, those too large are errors") {
+    const std::string zeros(400, '0');
+    for (const std::string& small :
+         {"0." + zeros + "1", std::string("1e-400"), "-." + zeros + "1e5", "1" + zeros + "e-1000",
+          "5e-9" + zeros}) {
+        CAPTURE(small);
+        Scanner scanner(small);
+        const auto read = scanner.number();
+        REQUIRE(read.has_value());
+        CHECK(*read == 0.0);
+    }
+    for (const std::string& large : {"1" + zeros, "0." + zeros + "1e1000", "-1" + zeros + ".5e-5",
+                                     std::string("1e400"), "1e9" + zeros}) {
+        CAPTURE(large);
+        Scanner scanner(large);
+        CHECK(scanner.number().error().what == "the number is too large");
+    }
+    const std::string shifted = "0." + zeros + "1e402";
+    CHECK(*Scanner(shifted).number() == 10.0);
+}
+
 TEST_CASE("transformations are applied from the last to the first") {
     const auto at = [](std::string_view text, Vec2 p) { return (*read_transform(text))(p); };
     CHECK(at("", {1, 2}) == Vec2{1, 2});
