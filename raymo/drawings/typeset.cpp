@@ -58,6 +58,12 @@ bool is_ignorable(char32_t c) {
            (c >= 0xFE00 && c <= 0xFE0F) || c == 0xFEFF;
 }
 
+/// Hebrew, Arabic and what stands between them in Unicode, with the forms of their letters.
+bool runs_leftwards(char32_t c) {
+    return (c >= 0x0590 && c <= 0x08FF) || (c >= 0xFB1D && c <= 0xFDFF) ||
+           (c >= 0xFE70 && c <= 0xFEFC);
+}
+
 class Setter {
 public:
     Setter(Font& font, const TextStyle& style)
@@ -78,6 +84,7 @@ public:
                                  0,
                                  {}});
         }
+        made_.is_backwards = made_.is_backwards || runs_leftwards(c);
         const auto advance = font_.advance(glyph);
         if (!advance) return blame_font(advance.error());
         if (previous_ != 0) pen_ += font_.kerning(previous_, glyph);

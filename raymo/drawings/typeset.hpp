@@ -21,9 +21,10 @@ struct TextStyle {
 };
 
 struct SetText {
-    curves::Contour contour;  ///< null when nothing shows
-    double bytes = 0.0;       ///< that were made for it
-    double width = 0.0;       ///< of the longest line: how far its pen goes, spaces counted [mm]
+    curves::Contour contour;    ///< null when nothing shows
+    double bytes = 0.0;         ///< that were made for it
+    double width = 0.0;         ///< of the longest line: how far its pen goes, spaces counted [mm]
+    bool is_backwards = false;  ///< has letters of a script that runs from right to left
 };
 
 /// Sets lines, parted by U+000A, the first on the base line y = 0. U+0009 is as wide as four spaces; U+000D, the soft

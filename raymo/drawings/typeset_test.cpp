@@ -74,6 +74,9 @@ TEST_CASE("what shows nothing is no contour") {
     // Not even where the font has a glyph for it.
     CHECK(font->glyph_of(0xad) != 0);
     CHECK(set(*font, U"\u00ad\u200d\r").contour == nullptr);
+    CHECK(set(*font, U"\u05d0").is_backwards);
+    CHECK(set(*font, U"a\u0644").is_backwards);
+    CHECK_FALSE(set(*font, U"\u0416\u00e9").is_backwards);
     CHECK(set(*font, U"A\u00adV").width == set(*font, U"AV").width);
 }
 

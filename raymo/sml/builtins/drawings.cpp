@@ -97,6 +97,10 @@ bool text(Call& call, Value& out) {
                          "where there may be none, ask first: if len(label) > 0 { ... }",
                          fmt::format("this is {}", quoted(shortened(call[kText].string()))));
     }
+    if (made.is_backwards) {
+        call.warn("letters are set from left to right, not joined, in every script",
+                  "draw words of scripts that run from right to left as paths, for svg()");
+    }
     return call.evaluator().made(std::move(made.contour), made.bytes, call.node(), out);
 }
 
