@@ -323,6 +323,7 @@ private:
             if (is_many) bytes_ += curves::bytes_of(*drawn_.contour);
         }
         drawn_.bytes = bytes_;
+        drawn_.rules = document_.left_out_rules;
         return std::move(drawn_);
     }
 

@@ -293,6 +293,7 @@ private:
         if (!sheet.add(sheet_text_, [&](double bytes) { return go_on_(before + bytes); }))
             return fail(ErrorCode::cancelled, "stopped");
         bytes_ += sheet.bytes();
+        document_.left_out_rules = sheet.left_out();
         constexpr std::size_t kTestsBetweenQuestions = 65536;
         std::size_t tests = 0;
         for (const Selected& s : selected_) {

@@ -63,6 +63,7 @@ struct SvgDocument {
     std::string text;                  ///< the file
     std::vector<SvgElement> elements;  ///< [0] is the root; parents come before their children
     std::unordered_map<std::string, std::uint32_t> ids;
+    std::size_t left_out_rules = 0;  ///< of its style sheets: see StyleSheet::left_out()
 
     /// "`name`, line 3, column 7: `what`".
     [[nodiscard]] Failure wrong(std::size_t at, std::string what, std::string hint = {},

@@ -122,8 +122,11 @@ bool StyleSheet::add_rules(std::string_view selectors, const Style& style, const
         if (++steps_ % kBetweenQuestions == 0 && !go_on(bytes_)) return false;
         if (style.is_empty()) return true;
         std::string_view selector = trimmed(cut(selectors, ','));
-        if (selector.empty() || selector.find_first_of(" \t\n\r\f>+~[]:") != std::string_view::npos)
+        if (selector.empty()) continue;
+        if (selector.find_first_of(" \t\n\r\f>+~[]:") != std::string_view::npos) {
+            ++left_out_;
             continue;
+        }
         Rule rule;
         rule.style = style;
         const auto name = [&] {

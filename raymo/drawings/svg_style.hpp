@@ -44,6 +44,8 @@ public:
     [[nodiscard]] bool add(std::string_view text, const GoOn& go_on);
     [[nodiscard]] std::size_t size() const { return rules_.size(); }
     [[nodiscard]] double bytes() const { return bytes_; }
+    /// Selectors that are left out though what they say would matter.
+    [[nodiscard]] std::size_t left_out() const { return left_out_; }
     /// What it says of an element; `classes` are parted by blanks.
     [[nodiscard]] Style of(std::string_view tag, std::string_view id,
                            std::string_view classes) const;
@@ -58,6 +60,7 @@ private:
     [[nodiscard]] bool add_rules(std::string_view selectors, const Style& style, const GoOn& go_on);
 
     std::vector<Rule> rules_;
+    std::size_t left_out_ = 0;
     double bytes_ = 0.0;
     std::uint32_t steps_ = 0;
 };

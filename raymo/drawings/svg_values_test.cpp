@@ -145,6 +145,11 @@ TEST_CASE("styles: what is said last, and nearer to the element, goes before") {
     CHECK(sheet.of("path", "", "").is_shown == std::nullopt);
     CHECK(*sheet.of("path", "", "").is_visible == false);
     CHECK(*sheet.of("rect", "", "").is_visible);
+    CHECK(sheet.left_out() == 1);
+    StyleSheet more;
+    REQUIRE(more.add("g path { stroke: red } a:hover, p[x], .b { fill: none }", &always));
+    CHECK(more.left_out() == 2);
+    CHECK(more.size() == 1);
 }
 
 TEST_CASE("style sheets: rules are counted, may be stopped, and are kept if they say something") {

@@ -176,6 +176,12 @@ bool svg(Call& call, Value& out) {
                          "the drawing is too large to be computed with",
                          "stay within 1e90 of the origin");
     }
+    if (drawn->rules > 0) {
+        call.warn(fmt::format("{} of its style sheet's selectors say what is filled, and are not "
+                              "followed",
+                              drawn->rules),
+                  "select by one element, class or id, as in `.logo`; or say it at the shapes");
+    }
     if (drawn->texts + drawn->images > 0) {
         const std::string_view both = drawn->texts > 0 && drawn->images > 0 ? " and " : "";
         call.warn(fmt::format("its {}{}{} are left out", drawn->texts > 0 ? "texts" : "", both,
