@@ -68,6 +68,8 @@ public:
         XML_Parse(parser_, text.data(), static_cast<int>(text.size()), 1);
         if (failure_) return Failure(std::move(*failure_));
         if (const XML_Error error = XML_GetErrorCode(parser_); error != XML_ERROR_NONE) {
+            if (error == XML_ERROR_NO_MEMORY)
+                return fail(ErrorCode::limit, "there is no memory left to read " + document_.name);
             const XML_Index at = error_index();
             return document_.wrong(at < 0 ? 0 : static_cast<std::size_t>(at),
                                    std::string("not well-formed XML: ") + XML_ErrorString(error),
@@ -222,7 +224,7 @@ private:
     void draw(SvgElement& element, std::string_view name, std::string_view value) {
         const double before = bytes_;
         const GoOn go_on = [&](double bytes) { return go_on_(before + bytes); };
-        auto outline = name == "d" ? read_path(value, go_on) : read_polygon(value);
+        auto outline = name == "d" ? read_path(value, go_on) : read_polygon(value, go_on);
         if (!outline && outline.error().what.empty()) {
             stop(Error{ErrorCode::cancelled, "stopped", {}, {}, -1, {}});
             return;

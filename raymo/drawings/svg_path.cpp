@@ -260,17 +260,24 @@ Read<curves::Outline> read_path(std::string_view d, const GoOn& go_on) {
     return PathReader(d, go_on).read();
 }
 
-Read<curves::Outline> read_polygon(std::string_view points) {
-    const auto numbers = read_numbers(points);
-    if (!numbers) return tl::unexpected(numbers.error());
-    if (numbers->size() % 2 != 0)
-        return tl::unexpected(Misfit{points.size(), "the last point has no y"});
+Read<curves::Outline> read_polygon(std::string_view points, const GoOn& go_on) {
+    constexpr std::size_t kBetweenQuestions = 4096;
     PathPen pen;
-    for (std::size_t i = 0; i < numbers->size(); i += 2) {
-        const Vec2 corner{(*numbers)[i], (*numbers)[i + 1]};
-        i == 0 ? pen.move(corner) : pen.line(corner);
+    Scanner scanner(points);
+    scanner.skip_spaces();
+    std::size_t count = 0;
+    for (Vec2 corner; !scanner.is_done(); ++count) {
+        const auto number = scanner.number();
+        if (!number) return tl::unexpected(number.error());
+        (count % 2 == 0 ? corner.x : corner.y) = *number;
+        if (count == 1) pen.move(corner);
+        if (count % 2 == 1 && count > 1) pen.line(corner);
+        if (scanner.skip_comma() && scanner.is_done()) return scanner.expected("a number");
+        if (count % kBetweenQuestions == kBetweenQuestions - 1 && !go_on(pen.bytes()))
+            return tl::unexpected(Misfit{});
     }
-    return numbers->size() < 6 ? curves::Outline() : pen.take();
+    if (count % 2 != 0) return tl::unexpected(Misfit{points.size(), "the last point has no y"});
+    return count < 6 ? curves::Outline() : pen.take();
 }
 
 void draw_ellipse(PathPen& pen, Vec2 centre, Vec2 radii) {

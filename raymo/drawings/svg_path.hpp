@@ -55,7 +55,8 @@ private:
 /// The curves that the attribute `d` describes. Its last misfit has no text when `go_on` has said no.
 [[nodiscard]] Read<curves::Outline> read_path(std::string_view d, const GoOn& go_on);
 /// The polygon with the corners that the attribute `points` lists; without curves when there are less than 3.
-[[nodiscard]] Read<curves::Outline> read_polygon(std::string_view points);
+/// Its misfit has no text when `go_on` has said no.
+[[nodiscard]] Read<curves::Outline> read_polygon(std::string_view points, const GoOn& go_on);
 /// A whole ellipse.
 void draw_ellipse(PathPen& pen, Vec2 centre, Vec2 radii);
 /// A rectangle, its corners rounded by quarters of an ellipse; radii up to half of the sides.

@@ -179,8 +179,20 @@ TEST_CASE("shapes: areas of rectangles, rounded ones and ellipses") {
     const Outline ellipse = drawn([](PathPen& p) { draw_ellipse(p, {7, 8}, {2, 5}); });
     CHECK(area(ellipse) == doctest::Approx(10 * std::numbers::pi).epsilon(1e-14));
     CHECK(ellipse.curves[0].spans.size() == 4);
-    CHECK(area(*read_polygon("0,0 4,0 4,3")) == doctest::Approx(6.0));
-    CHECK(read_polygon("1 2 3 4")->curves.empty());
+    CHECK(area(*read_polygon("0,0 4,0 4,3", &always)) == doctest::Approx(6.0));
+    CHECK(read_polygon("1 2 3 4", &always)->curves.empty());
+    CHECK(read_polygon("", &always)->curves.empty());
+    std::string many;
+    for (int i = 0; i < 10000; ++i) many += std::to_string(i) + "," + std::to_string(i * i) + " ";
+    CHECK(read_polygon(many, &always)->curves[0].spans.size() == 10000);
+    double most = 0.0;
+    const auto stopped = read_polygon(many, [&](double bytes) {
+        most = bytes;
+        return bytes < 1e5;
+    });
+    CHECK(stopped.error().what.empty());
+    CHECK(most >= 1e5);
+    CHECK(most < 1e6);
 }
 
 TEST_CASE("misfits say where and what") {
@@ -202,7 +214,7 @@ TEST_CASE("misfits say where and what") {
     CHECK(misfit("M1 nan") == "3: a number is missing before \"nan\"");
     CHECK(misfit("M1 -inf") == "3: a number is missing before \"-inf\"");
     CHECK(path("M1e-999 0 L2 0 L2 2z").curves[0].spans[0].point(0) == Vec2{0, 0});
-    CHECK(read_polygon("1 2 3").error().what == "the last point has no y");
+    CHECK(read_polygon("1 2 3", &always).error().what == "the last point has no y");
     std::string endless = "M0 0";
     for (int i = 0; i < 10000; ++i) endless += "l1 1";
     const auto stopped = read_path(endless, [](double) { return false; });

@@ -100,19 +100,6 @@ Read<bool> Scanner::flag() {
     return c == '1';
 }
 
-Read<std::vector<double>> read_numbers(std::string_view text) {
-    std::vector<double> out;
-    Scanner scanner(text);
-    scanner.skip_spaces();
-    while (!scanner.is_done()) {
-        const auto number = scanner.number();
-        if (!number) return tl::unexpected(number.error());
-        out.push_back(*number);
-        if (scanner.skip_comma() && scanner.is_done()) return scanner.expected("a number");
-    }
-    return out;
-}
-
 Read<Length> read_length(std::string_view text) {
     Scanner scanner(text);
     scanner.skip_spaces();
@@ -147,12 +134,19 @@ Read<Length> read_length(std::string_view text) {
 }
 
 Read<ViewBox> read_view_box(std::string_view text) {
-    const auto numbers = read_numbers(text);
-    if (!numbers) return tl::unexpected(numbers.error());
-    if (numbers->size() != 4)
+    std::array<double, 4> n{};
+    std::size_t count = 0;
+    Scanner scanner(text);
+    scanner.skip_spaces();
+    for (; !scanner.is_done(); ++count) {
+        const auto number = scanner.number();
+        if (!number) return tl::unexpected(number.error());
+        if (count < n.size()) n[count] = *number;
+        if (scanner.skip_comma() && scanner.is_done()) return scanner.expected("a number");
+    }
+    if (count != n.size())
         return tl::unexpected(
-            misfit(0, "a view box is four numbers, not " + std::to_string(numbers->size())));
-    const auto& n = *numbers;
+            misfit(0, "a view box is four numbers, not " + std::to_string(count)));
     if (!(n[2] > 0.0 && n[3] > 0.0))
         return tl::unexpected(
             misfit(0, "the width and the height of a view box must be greater than 0, not " +

@@ -51,9 +51,6 @@ private:
     std::size_t at_ = 0;
 };
 
-/// All numbers of a list.
-[[nodiscard]] Read<std::vector<double>> read_numbers(std::string_view text);
-
 /// A length, or a part of the viewport.
 struct Length {
     double value = 0.0;
