@@ -109,6 +109,7 @@ private:
         if (index == 0) enter_page(e, frame);
         frame.map = frame.map * e.transform;
         if (index == 0) return;
+        if (e.style.is_placed && e.tag != SvgTag::text && e.tag != SvgTag::image) ++drawn_.placed;
         if (e.tag == SvgTag::svg || e.tag == SvgTag::symbol) {
             // A symbol that is selected where it is defined is as it is written.
             if (e.tag == SvgTag::symbol && user == kNoElement) return;

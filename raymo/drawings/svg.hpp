@@ -27,6 +27,7 @@ struct Drawn {
     std::size_t flat = 0;      ///< shapes left out since a page or a scale of 0 makes them flat
     std::size_t texts = 0;     ///< left out: letters are no curves in SVG
     std::size_t images = 0;    ///< left out
+    std::size_t placed = 0;    ///< elements that are moved or sized by CSS, which is not followed
     std::size_t rules = 0;  ///< of the file's style sheets that say what is filled and are left out
 };
 

@@ -184,6 +184,8 @@ private:
                 element.href = value;
             } else if (name == "systemLanguage" || name == "requiredExtensions") {
                 element.is_conditional = true;
+            } else if (name == "transform-origin") {
+                element.style.is_placed = true;
             } else if (name == "transform") {
                 take(name, read_transform(value), element.transform);
             } else if (name == "viewBox" &&

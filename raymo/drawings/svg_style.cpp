@@ -28,6 +28,15 @@ bool is_word(std::string_view text, std::string_view word) {
     });
 }
 
+/// Whether a property moves shapes or makes them larger.
+bool places(std::string_view name) {
+    static constexpr auto kNames = std::to_array<std::string_view>(
+        {"transform", "transform-origin", "transform-box", "translate", "rotate", "scale", "x", "y",
+         "width", "height", "cx", "cy", "r", "rx", "ry", "d", "offset-path", "zoom"});
+    return std::any_of(kNames.begin(), kNames.end(),
+                       [&](std::string_view known) { return is_word(name, known); });
+}
+
 std::string without_comments(std::string_view text) {
     std::string out;
     while (!text.empty()) {
@@ -74,6 +83,8 @@ void Style::set_all(std::string_view declarations) {
     while (!rest.empty()) {
         std::string_view value = cut(rest, ';');
         const std::string_view name = trimmed(cut(value, ':'));
+        is_placed = is_placed || (places(name) && !is_word(trimmed(value), "none") &&
+                                  !is_word(trimmed(value), "auto"));
         const std::size_t mark = std::min(value.find('!'), value.size());
         say(name, value,
             is_word(trimmed(value.substr(std::min(mark + 1, value.size()))), "important"));
@@ -81,6 +92,7 @@ void Style::set_all(std::string_view declarations) {
 }
 
 void Style::override_by(const Style& other) {
+    is_placed = is_placed || other.is_placed;
     constexpr std::array kProperties{&Style::is_filled, &Style::is_even_odd, &Style::is_visible,
                                      &Style::is_shown};
     for (std::size_t i = 0; i < kProperties.size(); ++i) {

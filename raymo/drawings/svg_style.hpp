@@ -18,6 +18,8 @@ struct Style {
     std::optional<bool> is_even_odd;  ///< fill-rule
     std::optional<bool> is_visible;   ///< visibility
     std::optional<bool> is_shown;     ///< display
+    /// What CSS can say of where a shape lies and how large it is is said: transform, width, r and the like. It is not followed.
+    bool is_placed = false;
 
     /// Takes an attribute; one that is not of these four is nothing. Values are in letters of either case.
     void set(std::string_view name, std::string_view value);
@@ -25,7 +27,7 @@ struct Style {
     void set_all(std::string_view declarations);
     /// Whether anything is said.
     [[nodiscard]] bool is_empty() const {
-        return !is_filled && !is_even_odd && !is_visible && !is_shown;
+        return !is_filled && !is_even_odd && !is_visible && !is_shown && !is_placed;
     }
     /// What `other` says goes before what is said here, unless that is important and the other is not.
     void override_by(const Style& other);

@@ -137,6 +137,20 @@ TEST_CASE("what is not filled, not visible or not shown is left out") {
     CHECK(others.images == 1);
 }
 
+TEST_CASE("elements that CSS moves or sizes are counted, as far as they are shown") {
+    const std::string r = "<rect width='5' height='5' ";
+    for (const char* placed : {"style='transform:scale(2)'", "style='WIDTH: 3px'", "class='far'",
+                               "transform-origin='3 3'"}) {
+        CAPTURE(placed);
+        CHECK(read(drawing("<style>.far { translate: 3px }</style>" + r + placed + "/>")).placed ==
+              1);
+    }
+    CHECK(read(drawing(r + "style='transform:none;fill:red' transform='scale(2)'/><defs>" + r +
+                           "style='r:3'/></defs><text style='x:3'/>",
+                       "style='width:100%;height:auto'"))
+              .placed == 0);
+}
+
 TEST_CASE("a switch shows the first of its elements that may show") {
     const std::string page = "viewBox='0 0 100 100' width='100mm' height='100mm'";
     const std::string choices =

@@ -176,6 +176,12 @@ bool svg(Call& call, Value& out) {
                          "the drawing is too large to be computed with",
                          "stay within 1e90 of the origin");
     }
+    if (drawn->placed > 0) {
+        call.warn(
+            fmt::format("{} of its elements are moved or sized by `style`, which is not followed",
+                        drawn->placed),
+            "write `transform`, `width` and the like as attributes: save it as a plain SVG");
+    }
     if (drawn->rules > 0) {
         call.warn(fmt::format("{} of its style sheet's selectors say what is filled, and are not "
                               "followed",
