@@ -274,7 +274,6 @@ private:
         }
         return here_;
     }
-    static bool is_space(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
     /// A line's end is one blank in a value, and a reference one character.
     [[nodiscard]] std::size_t in_value(std::size_t begin, std::size_t end, std::size_t at) const {
         const std::string_view text = document_.text;

@@ -160,10 +160,7 @@ private:
         out = *read;
         return true;
     }
-    bool number(double& out) {
-        if (!take(scanner_.number(), out)) return false;
-        return true;
-    }
+    bool number(double& out) { return take(scanner_.number(), out); }
     /// What follows may stand behind a comma.
     bool next_number(double& out) {
         scanner_.skip_comma();

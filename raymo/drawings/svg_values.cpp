@@ -10,7 +10,6 @@
 namespace raymo::drawings {
 namespace {
 
-bool is_space(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r' || c == '\f'; }
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
 
@@ -34,6 +33,8 @@ double decimal_exponent(std::string_view number) {
 Misfit misfit(std::size_t at, std::string what) { return {at, std::move(what)}; }
 
 }  // namespace
+
+bool is_space(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r' || c == '\f'; }
 
 std::string shortened(std::string_view text, std::size_t most) {
     std::size_t end = std::min(most, text.size());
@@ -253,7 +254,11 @@ Read<Affine2> read_transform(std::string_view text) {
     Affine2 out;
     Scanner scanner(text);
     scanner.skip_spaces();
-    if (text.substr(scanner.at()).starts_with("none")) return out;
+    Scanner none = scanner;
+    if (none.word() == "none") {
+        none.skip_spaces();
+        if (none.is_done()) return out;
+    }
     while (!scanner.is_done()) {
         const auto next = read_function(scanner);
         if (!next) return tl::unexpected(next.error());

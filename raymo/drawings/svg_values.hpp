@@ -19,6 +19,9 @@ struct Misfit {
 template <class T>
 using Read = tl::expected<T, Misfit>;
 
+/// White space of XML and CSS.
+[[nodiscard]] bool is_space(char c);
+
 /// A value as a message shows it: its first `most` bytes at most, in whole characters, then "..." where more follows; white
 /// space is blanks.
 [[nodiscard]] std::string shortened(std::string_view text, std::size_t most);

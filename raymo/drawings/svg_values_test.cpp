@@ -55,6 +55,9 @@ TEST_CASE("numbers too small to be told from 0 are 0, those too large are errors
 TEST_CASE("transformations are applied from the last to the first") {
     const auto at = [](std::string_view text, Vec2 p) { return (*read_transform(text))(p); };
     CHECK(at("", {1, 2}) == Vec2{1, 2});
+    CHECK(at(" none ", {1, 2}) == Vec2{1, 2});
+    CHECK_FALSE(read_transform("nonesuch").has_value());
+    CHECK_FALSE(read_transform("none scale(2)").has_value());
     CHECK(at("translate(10)", {1, 2}) == Vec2{11, 2});
     CHECK(at("translate(10 20)scale(2)", {1, 2}) == Vec2{12, 24});
     CHECK(at("scale(2,3) , translate(1 , 1)", {1, 2}) == Vec2{4, 9});
