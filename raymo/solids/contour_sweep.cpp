@@ -4,7 +4,6 @@
 #include <limits>
 
 #include "raymo/curves/roots.hpp"
-#include "raymo/math/accurate.hpp"
 #include "raymo/math/lanes.hpp"
 #include "raymo/math/tolerance.hpp"
 #include "raymo/solids/crossings.hpp"
@@ -30,11 +29,17 @@ constexpr std::uint16_t kTop = 1;
 /// Pieces that a grazing ray is followed along, at most.
 constexpr int kMostFollowed = 6;
 
+/// The normal of the plane through the ray and the tip.
+Vec3 plane_normal(Vec3 a, Vec3 b) {
+    const auto n = accurate_cross(Triple<double>{a.x, a.y, a.z}, Triple<double>{b.x, b.y, b.z});
+    return {n.x, n.y, n.z};
+}
+
 /// The ray in the space of (x, y, q), and the pieces of the contour that it may meet.
 class SectionLine {
 public:
     SectionLine(const Region& region, Vec3 a, Vec3 b, Vec3 e, Crossings& out)
-        : region_(region), a_(a), b_(b), n_(accurate_cross(a, b)), e_(e), out_(out) {
+        : region_(region), a_(a), b_(b), n_(plane_normal(a, b)), e_(e), out_(out) {
         e_ += Vec3{1.0, 1.0, 1.0} * (16.0 * kUnitRoundoff * std::max(1.0, max_norm(a)));
         most_noise_ = 4.0 * (e_.x + e_.y + e_.z) * max_norm(b);
     }

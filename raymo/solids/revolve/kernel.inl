@@ -7,13 +7,6 @@
 //     A = p w + q (z - z0 w),  B = p' w + q' (z - z0 w),  C = d.z x,
 // with (p, q, p', q', z0) = (0, sqrt(D), d.z rho, 0, z_c) for flat ones and d.z o.x, d.x, d.z o.y, d.y, o.z for steep ones.
 
-/// A direction that is off an axis or its perpendicular by less than this, seen from the ray's length, is taken to be
-/// exactly so: over the solid that is less than a rounding.
-inline constexpr double kProfileExact = 0x1p-58;
-
-/// How much the slope may change, as a part of itself, over the range in which a crossing may lie.
-inline constexpr double kProfileSteady = 0.25;
-
 /// Heights of a crossing and of the ray's place nearest to the axis, both at most 2, are known to less than this.
 inline constexpr double kProfileBlurred = 64.0 * kUnitRoundoff;
 
@@ -332,7 +325,7 @@ private:
         const R du = way * inverse_speed;
         const R round = lane_abs(tz) / (size * lane_max(r, R(0x1p-200)));
         const M steady = R(16.0 * piece.bend) * du * inverse_speed + round * way <=
-                         R(kProfileSteady) * slope / (size * length);
+                         R(solids::kProfileSteady) * slope / (size * length);
         const M within = lane_and(du <= u, u + du <= R(1.0));
         const double chord =
             std::max(std::fabs(piece.x[3] - piece.x[0]), std::fabs(piece.y[3] - piece.y[0]));
@@ -412,7 +405,7 @@ RAYMO_INLINE int revolve_spans(const curves::Region& region, double angle, Vec3 
     const R length = lane_sqrt(ray.dd);
     const R across = lane_sqrt(d.x * d.x + d.y * d.y);
     const R up = lane_abs(d.z);
-    const R least = R(kProfileExact) * length;
+    const R least = R(solids::kProfileExact) * length;
     const M slanted = lane_and(across > least, up > least);
     left_over = lane_and(asked, lane_not(slanted));
     // The parts of the turn that are taken: one wedge, or all but one.

@@ -17,16 +17,9 @@ using curves::value_at;
 
 namespace {
 
-/// A direction that is off an axis or its perpendicular by less than this, seen from the ray's length, is taken to be
-/// exactly so: over the solid that is less than a rounding.
-constexpr double kExact = 0x1p-58;
-
 /// Nearer to the axis than this many times its error a ray along it is taken to be at that distance: on the axis itself the
 /// contour is never crossed.
 constexpr double kOffAxis = 1024.0;
-
-/// How much the slope may change, as a part of itself, over the range in which a crossing may lie.
-constexpr double kSteady = 0.25;
 
 /// A, at a zero of F that is known to a unit roundoff or two, is wrong by less than this part of its largest coefficient: A' is
 /// at most 6 times that, and the evaluation adds as much again.
@@ -102,7 +95,7 @@ ProfileLine::ProfileLine(const curves::Region& region, const LocalRay<double>& r
     const double rounding = 32.0 * kUnitRoundoff * std::max(1.0, max_norm(o_));
     e_ += Vec3{rounding, rounding, rounding};
     const double up = std::fabs(d_.z);
-    if (across_ <= kExact * length_) {
+    if (across_ <= kProfileExact * length_) {
         slant_ = Slant::upright;
         rho_ = length_of(o_.x, o_.y);
         const double least = kOffAxis * std::max(e_.x, e_.y);
@@ -113,7 +106,8 @@ ProfileLine::ProfileLine(const curves::Region& region, const LocalRay<double>& r
         }
         return;
     }
-    slant_ = up <= kExact * length_ ? Slant::level : (up <= across_ ? Slant::flat : Slant::steep);
+    slant_ =
+        up <= kProfileExact * length_ ? Slant::level : (up <= across_ ? Slant::flat : Slant::steep);
     s_c_ = -(o_.x * d_.x + o_.y * d_.y) / (across_ * across_);
     z_c_ = o_.z + s_c_ * d_.z;
     rho_ = std::fabs(o_.x * d_.y - o_.y * d_.x) / across_;
@@ -355,7 +349,7 @@ void ProfileLine::cross_at(std::uint32_t i, double u, int turn, int half) {
     }
     const double du = way / speed;
     const double round = std::fabs(t.y) / length_of(t.x, t.y) / std::max(p.x, 0x1p-200);
-    if (!(16.0 * bend * du / speed + round * way <= kSteady * std::fabs(slope) / length_)) {
+    if (!(16.0 * bend * du / speed + round * way <= kProfileSteady * std::fabs(slope) / length_)) {
         out_.set_degenerate();
         return;
     }

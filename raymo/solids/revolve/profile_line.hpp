@@ -32,6 +32,13 @@
 
 namespace raymo::solids {
 
+/// A direction that is off an axis or its perpendicular by less than this, seen from the ray's length, is taken to be
+/// exactly so: over the solid that is less than a rounding.
+inline constexpr double kProfileExact = 0x1p-58;
+
+/// How much the slope may change, as a part of itself, over the range in which a crossing may lie.
+inline constexpr double kProfileSteady = 0.25;
+
 class ProfileLine {
 public:
     ProfileLine(const curves::Region& region, const LocalRay<double>& ray, Crossings& out);

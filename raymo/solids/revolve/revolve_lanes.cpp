@@ -13,6 +13,7 @@
 #include "raymo/math/tolerance.hpp"
 #include "raymo/solids/crossings.hpp"
 #include "raymo/solids/ray_block.hpp"
+#include "raymo/solids/revolve/profile_line.hpp"
 #include "raymo/solids/revolve/revolve.hpp"
 
 HWY_BEFORE_NAMESPACE();
