@@ -77,6 +77,7 @@ struct GivenArgument {
 [[nodiscard]] std::span<const BuiltinRow> list_rows();
 [[nodiscard]] std::span<const BuiltinRow> text_rows();
 [[nodiscard]] std::span<const BuiltinRow> solid_rows();
+[[nodiscard]] std::span<const BuiltinRow> blend_rows();
 [[nodiscard]] std::span<const BuiltinRow> contour_rows();
 [[nodiscard]] std::span<const BuiltinRow> path_rows();
 [[nodiscard]] std::span<const BuiltinRow> drawing_rows();

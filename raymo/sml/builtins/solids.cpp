@@ -6,7 +6,7 @@
 #include <map>
 #include <unordered_map>
 
-#include "raymo/sml/builtins/call.hpp"
+#include "raymo/sml/builtins/blends.hpp"
 #include "raymo/sml/text.hpp"
 
 namespace raymo::sml {
@@ -134,11 +134,19 @@ std::size_t blamed(Call& call, const solids::Param& param, std::size_t slot, std
     return slot;
 }
 
+/// Of the Booleans' parameters.
+constexpr BlendSlots kBlend{0, 1};
+
 // union(list), union(a, b, c), and the same for the other Booleans. Without operands: nothing.
 bool boolean(Call& call, csg::Op op, Value& out) {
-    if (call.has(0) || call.has(1) || call.has(2)) {
-        return call.fail(call.has(0) ? 0 : (call.has(1) ? 1 : 2), ErrorCode::not_available,
-                         "blends are not available yet", "leave out `blend` for sharp edges");
+    blends::Form form;
+    const bool is_blended = call.has(kBlend.radius);
+    if (is_blended && !take_blend(call, kBlend, form)) return false;
+    for (std::size_t i = kBlend.others; !is_blended && i < call.rest_begin(); ++i) {
+        if (!call.has(i)) continue;
+        return call.fail(i, ErrorCode::bad_argument,
+                         call.argument_name(i) + " is for blended edges",
+                         "give the radius, too: `blend: 2`");
     }
     std::vector<csg::Solid> solids;
     std::vector<curves::Contour> contours;
@@ -176,6 +184,10 @@ bool boolean(Call& call, csg::Op op, Value& out) {
             if (!call.evaluator().step(call.node()) || !add(item, argument, true)) return false;
         }
     }
+    if (!contours.empty() && is_blended) {
+        return call.fail(kBlend.radius, ErrorCode::bad_argument, "contours can not be blended",
+                         "blend the solids that are made of them");
+    }
     if (contours.size() == 1) {
         out = last;
         return true;
@@ -189,6 +201,10 @@ bool boolean(Call& call, csg::Op op, Value& out) {
             return true;
         }
         return call.fail(ErrorCode::bad_argument, "there are no solids to work on");
+    }
+    if (is_blended) {
+        return give_blend(call, kBlend, blends::blended(op, std::move(solids), form, call.span()),
+                          out);
     }
     return call.evaluator().combine(op, std::move(solids), call.node(), call.span(), out);
 }
@@ -308,10 +324,12 @@ bool make_primitive(Call& call, Value& out) {
 
 std::span<const BuiltinRow> solid_rows() {
     static constexpr auto kRows = std::to_array<BuiltinRow>({
-        {"union", "solids* | blend? kind? shape?", &unite, "All solids or contours as one."},
-        {"difference", "solids* | blend? kind? shape?", &difference,
+        {"union", "solids* | blend? kind? shape? near? where?", &unite,
+         "All solids or contours as one."},
+        {"difference", "solids* | blend? kind? shape? near? where?", &difference,
          "The first without the others."},
-        {"intersection", "solids* | blend? kind? shape?", &intersection, "What all share."},
+        {"intersection", "solids* | blend? kind? shape? near? where?", &intersection,
+         "What all share."},
     });
     return kRows;
 }

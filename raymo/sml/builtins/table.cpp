@@ -93,9 +93,9 @@ struct Table {
             rows.push_back(std::move(b));
         }
         for (const auto topic :
-             {number_rows(), vector_rows(), list_rows(), text_rows(), solid_rows(), contour_rows(),
-              path_rows(), drawing_rows(), transform_rows(), arrangement_rows(), look_rows(),
-              question_rows()}) {
+             {number_rows(), vector_rows(), list_rows(), text_rows(), solid_rows(), blend_rows(),
+              contour_rows(), path_rows(), drawing_rows(), transform_rows(), arrangement_rows(),
+              look_rows(), question_rows()}) {
             for (const BuiltinRow& row : topic) {
                 Builtin b;
                 b.takes = parse_parameters(row.name, row.parameters);

@@ -1,0 +1,191 @@
+#include "raymo/blends/blend.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "raymo/blends/vertex.hpp"
+
+namespace raymo::blends {
+namespace {
+
+/// The largest radius that fits, rounded down to three digits; 0 when none does.
+double largest_radius(const Body& body, const Segment& segment, double too_large) {
+    double lo = 0.0;
+    double hi = too_large;
+    double tried = too_large;
+    // Down to one that fits, then between.
+    for (int i = 0; i < 40 && lo == 0.0; ++i) {
+        tried *= 0.5;
+        if (fitting_of(body, segment, tried).fit == Fit::good) {
+            lo = tried;
+        } else {
+            hi = tried;
+        }
+    }
+    if (lo == 0.0) return 0.0;
+    for (int i = 0; i < 30; ++i) {
+        const double middle = 0.5 * (lo + hi);
+        (fitting_of(body, segment, middle).fit == Fit::good ? lo : hi) = middle;
+    }
+    // A search ends a little below a round number.
+    lo *= 1.0 + 0x1p-24;
+    const double unit = std::pow(10.0, std::floor(std::log10(lo)) - 2.0);
+    return std::floor(lo / unit) * unit;
+}
+
+Failure too_large(const Body& body, const Segment& segment, const Fitting& fitting, double radius) {
+    std::string message = fmt::format("a ball of radius {:g} does not fit between {} and {}",
+                                      radius, body.name_of(body.faces()[segment.face_a]),
+                                      body.name_of(body.faces()[segment.face_b]));
+    if (fitting.fit == Fit::off_face) {
+        message += fmt::format(": it reaches beyond {}", body.name_of(body.faces()[fitting.face]));
+    } else if (fitting.fit == Fit::blocked) {
+        message += fmt::format(": {} is in its way", body.name_of(body.faces()[fitting.face]));
+    }
+    const double most = largest_radius(body, segment, radius);
+    return fail(ErrorCode::out_of_range, std::move(message),
+                most > 0.0 ? fmt::format("the largest radius that works here is {:g}", most)
+                           : "no radius works here: choose other edges with `near` or `where`");
+}
+
+bool is_inside(const csg::Solid& solid, Vec3 p) {
+    const auto body = Body::make(csg::Op::unite, {solid});
+    return body && body->where(p) != solids::Where::out;
+}
+
+/// Squared distance of a point from a segment, from places along it.
+double distance_to(const Segment& segment, Vec3 p) {
+    constexpr int kPlaces = 256;
+    double least = Aabb::kInf;
+    for (int i = 0; i <= kPlaces; ++i) {
+        const double t = segment.lo + (segment.hi - segment.lo) * i / kPlaces;
+        least = std::min(least, norm(segment.edge.point(t) - p));
+    }
+    return least;
+}
+
+void select(std::vector<Segment>& segments, const Form& form) {
+    if (form.where) {
+        std::erase_if(segments, [&](const Segment& s) {
+            return !is_inside(form.where, s.edge.point(s.middle()));
+        });
+    }
+    if (form.near && !segments.empty()) {
+        const auto nearest = std::min_element(
+            segments.begin(), segments.end(), [&](const Segment& a, const Segment& b) {
+                return distance_to(a, *form.near) < distance_to(b, *form.near);
+            });
+        Segment only = std::move(*nearest);
+        segments.clear();
+        segments.push_back(std::move(only));
+    }
+}
+
+csg::Solid painted(csg::Solid solid, csg::MaterialId material, SourceSpan span) {
+    return material == csg::kNoMaterial ? solid : csg::paint(std::move(solid), material, span);
+}
+
+/// What is known of the faces must be enough: an edge that can not be seen would be left sharp without a word.
+Result<void> check_known(const Body& body, bool within_operands, double radius) {
+    for (const Leaf& leaf : body.leaves()) {
+        if (leaf.unknown.empty()) continue;
+        for (const Leaf& other : body.leaves()) {
+            if (&leaf == &other ? !within_operands
+                                : !within_operands && leaf.operand == other.operand)
+                continue;
+            if (overlap(grown(leaf.box, radius), other.box).empty()) continue;
+            const auto name = [](const Leaf& l) {
+                return solids::inventory()[csg::as_leaf(l.solid.node()).primitive].schema->name;
+            };
+            return fail(ErrorCode::bad_argument,
+                        &leaf == &other
+                            ? fmt::format("the {} can not be blended: {}", name(leaf), leaf.unknown)
+                            : fmt::format("the {} can not be blended with the {}: {}", name(leaf),
+                                          name(other), leaf.unknown),
+                        "blends join planes, spheres, cylinders, cones and tori");
+        }
+    }
+    return {};
+}
+
+Result<Blended> blend(const Body& body, csg::Solid sharp, bool within_operands,
+                      std::optional<Edges> only, const Form& form, SourceSpan span) {
+    if (!body.box().bounded()) {
+        return fail(ErrorCode::unbounded, "an unbounded solid can not be blended",
+                    "intersect it with something finite first");
+    }
+    if (body.box().empty()) return Blended{std::move(sharp), 0};
+    if (auto known = check_known(body, within_operands, form.radius); !known)
+        return Failure(std::move(known).error());
+    Found found = find_segments(body, within_operands, form.radius);
+    if (only) {
+        std::erase_if(found.segments,
+                      [&](const Segment& s) { return s.is_convex != (*only == Edges::convex); });
+    }
+    select(found.segments, form);
+
+    std::vector<Job> jobs;
+    for (Segment& segment : found.segments) {
+        const Fitting fitting = fitting_of(body, segment, form.radius);
+        if (fitting.fit != Fit::good) return too_large(body, segment, fitting, form.radius);
+        Job job;
+        job.wedge = *wedge_of(segment, form.radius);
+        job.segment = std::move(segment);
+        jobs.push_back(std::move(job));
+    }
+    std::vector<std::array<EndPlan, 2>> plans(jobs.size());
+    for (std::size_t i = 0; i < jobs.size(); ++i) {
+        if (jobs[i].segment.is_closed) continue;
+        for (std::size_t end = 0; end < 2; ++end) plans[i][end] = plan_of(body, jobs, i, end);
+    }
+    for (std::size_t i = 0; i < jobs.size(); ++i) {
+        extend(body, jobs, i, plans[i]);
+        auto made = solid_of(jobs[i].segment, jobs[i].wedge, form, jobs[i].lo, jobs[i].hi, span);
+        if (!made) return Failure(std::move(made).error());
+        const Face& face = body.faces()[jobs[i].segment.face_a];
+        jobs[i].solid = painted(std::move(*made), body.leaves()[face.leaf].material, span);
+    }
+    std::vector<csg::Solid> rounds;
+    std::vector<csg::Solid> fillets;
+    for (std::size_t i = 0; i < jobs.size(); ++i) {
+        auto cut = cut_at_ends(body, jobs, i, plans[i], span);
+        if (!cut) return Failure(std::move(cut).error());
+        (jobs[i].segment.is_convex ? rounds : fillets).push_back(std::move(*cut));
+    }
+    auto corners = corners_of(body, jobs, form, span);
+    if (!corners) return Failure(std::move(corners).error());
+    for (auto& [solid, is_convex] : *corners) {
+        (is_convex ? rounds : fillets).push_back(std::move(solid));
+    }
+    Blended out{std::move(sharp), jobs.size()};
+    if (!rounds.empty()) {
+        rounds.insert(rounds.begin(), std::move(out.solid));
+        out.solid = csg::boolean(csg::Op::difference, std::move(rounds), span);
+    }
+    if (!fillets.empty()) {
+        fillets.insert(fillets.begin(), std::move(out.solid));
+        out.solid = csg::boolean(csg::Op::unite, std::move(fillets), span);
+    }
+    return out;
+}
+
+}  // namespace
+
+Result<Blended> blended(csg::Op op, std::vector<csg::Solid> operands, const Form& form,
+                        SourceSpan span) {
+    auto body = Body::make(op, operands);
+    if (!body) return Failure(std::move(body).error());
+    csg::Solid sharp = csg::boolean(op, std::move(operands), span);
+    return blend(*body, std::move(sharp), false, std::nullopt, form, span);
+}
+
+Result<Blended> blended_edges(const csg::Solid& solid, Edges edges, const Form& form,
+                              SourceSpan span) {
+    auto body = Body::make(csg::Op::unite, {solid});
+    if (!body) return Failure(std::move(body).error());
+    return blend(*body, solid, true, edges, form, span);
+}
+
+}  // namespace raymo::blends

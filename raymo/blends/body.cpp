@@ -1,0 +1,134 @@
+#include "raymo/blends/body.hpp"
+
+#include <algorithm>
+
+#include "raymo/math/tolerance.hpp"
+
+namespace raymo::blends {
+namespace {
+
+using solids::Where;
+
+/// Of a point of the body, in a leaf's frame. The body's frame is that in which the user wrote the blend, so the leaf's map
+/// and the point carry a few roundings each, as large as the larger of them.
+Where where_in(const Leaf& leaf, Vec3 p) {
+    const Vec3 q = leaf.inverse(p);
+    const Vec3 reach = abs(p) + abs(leaf.map.offset);
+    const Vec3 e = (abs(leaf.inverse.linear) * reach + abs(q)) * kPointError;
+    return std::visit([&](const auto& kernel) { return kernel.where(q, e); },
+                      csg::as_leaf(leaf.solid.node()).solid.kernel);
+}
+
+Where complement(Where w) { return static_cast<Where>(2 - static_cast<int>(w)); }
+
+}  // namespace
+
+Result<void> Body::add(const csg::Solid& solid, std::size_t operand) {
+    struct Visit {
+        csg::Solid solid;
+        Affine map;
+        csg::MaterialId material;
+        std::size_t next = 0;
+    };
+    std::vector<Visit> open;
+    open.push_back({solid, Affine{}, csg::kNoMaterial});
+    while (!open.empty()) {
+        const csg::Solid current = open.back().solid;
+        const csg::Node& node = current.node();
+        const Affine map = open.back().map;
+        const csg::MaterialId material = open.back().material;
+        switch (node.kind) {
+            case csg::NodeKind::leaf: {
+                if (leaves_.size() == kMostLeaves) {
+                    return fail(ErrorCode::limit, "these solids have too many parts to be blended",
+                                "blend fewer of them at a time; 4096 parts are the most");
+                }
+                Leaf leaf;
+                leaf.solid = current;
+                leaf.map = map * csg::as_leaf(node).solid.to_object;
+                leaf.inverse = inverse(leaf.map);
+                leaf.material = material;
+                leaf.operand = operand;
+                leaf.box = std::visit([&](const auto& kernel) { return kernel.bounds(leaf.map); },
+                                      csg::as_leaf(node).solid.kernel);
+                add_faces(leaf, static_cast<std::uint32_t>(leaves_.size()), faces_);
+                steps_.push_back(
+                    {true, csg::Op::unite, static_cast<std::uint32_t>(leaves_.size())});
+                leaves_.push_back(std::move(leaf));
+                open.pop_back();
+                break;
+            }
+            case csg::NodeKind::transform:
+                open.pop_back();
+                open.push_back(
+                    {csg::as_transform(node).child, map * csg::as_transform(node).map, material});
+                break;
+            case csg::NodeKind::paint:
+                // The innermost paint wins.
+                open.pop_back();
+                open.push_back({csg::as_paint(node).child, map, csg::as_paint(node).material});
+                break;
+            case csg::NodeKind::boolean: {
+                const auto& operands = csg::as_boolean(node).operands;
+                if (open.back().next < operands.size()) {
+                    const csg::Solid& next = operands[open.back().next++];
+                    open.push_back({next, map, material});
+                } else {
+                    steps_.push_back({false, node.op, static_cast<std::uint32_t>(operands.size())});
+                    open.pop_back();
+                }
+                break;
+            }
+        }
+    }
+    return {};
+}
+
+Result<Body> Body::make(csg::Op op, const std::vector<csg::Solid>& operands) {
+    Body body;
+    for (std::size_t i = 0; i < operands.size(); ++i) {
+        if (auto added = body.add(operands[i], i); !added) return Failure(std::move(added).error());
+        const Aabb box = csg::bounds(operands[i]);
+        if (i == 0) {
+            body.box_ = box;
+        } else if (op == csg::Op::unite) {
+            body.box_ = hull(body.box_, box);
+        } else if (op == csg::Op::intersection) {
+            body.box_ = overlap(body.box_, box);
+        }
+    }
+    body.steps_.push_back({false, op, static_cast<std::uint32_t>(operands.size())});
+    return body;
+}
+
+Where Body::where(Vec3 p) const {
+    std::vector<Where> values;
+    for (const Step& step : steps_) {
+        if (step.is_leaf) {
+            values.push_back(where_in(leaves_[step.count], p));
+            continue;
+        }
+        const auto first = values.end() - static_cast<std::ptrdiff_t>(step.count);
+        Where value = *first;
+        for (auto at = first + 1; at != values.end(); ++at) {
+            value = step.op == csg::Op::unite          ? std::max(value, *at)
+                    : step.op == csg::Op::intersection ? std::min(value, *at)
+                                                       : std::min(value, complement(*at));
+        }
+        values.erase(first, values.end());
+        values.push_back(value);
+    }
+    return values.front();
+}
+
+bool Body::is_on(const Face& face, Vec3 p) const {
+    return where_in(leaves_[face.leaf], p) == Where::on;
+}
+
+std::string Body::name_of(const Face& face) const {
+    const auto row = csg::as_leaf(leaves_[face.leaf].solid.node()).primitive;
+    return "the " + std::string(face.name) + " of the " +
+           std::string(solids::inventory()[row].schema->name);
+}
+
+}  // namespace raymo::blends

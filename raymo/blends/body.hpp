@@ -1,0 +1,70 @@
+// A solid laid open for blending: its leaves with their faces, all in one frame, and the Boolean that joins them.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "raymo/blends/surface.hpp"
+#include "raymo/csg/model.hpp"
+
+namespace raymo::blends {
+
+/// A face of a leaf: part of one of the surfaces that can be blended.
+struct Face {
+    Surface surface;
+    double side = 1.0;  ///< -1: the leaf lies on the surface's outer side
+    std::uint32_t leaf = 0;
+    std::string_view name;  ///< "side", "top"
+};
+
+/// A leaf, in the frame of the body.
+struct Leaf {
+    csg::Solid solid;  ///< the leaf's own node
+    Affine map;        ///< from the kernel's frame to the body's
+    Affine inverse;
+    Aabb box;
+    csg::MaterialId material = csg::kNoMaterial;
+    std::size_t operand = 0;  ///< of which operand it is part
+    std::size_t first_face = 0;
+    std::size_t face_count = 0;
+    /// What can not be blended about it: "its wall is a free-form curve"; empty when all of its faces are told.
+    std::string_view unknown;
+};
+
+class Body {
+public:
+    /// `operands` joined by `op`. Error: limit, when there are more than kMostLeaves.
+    [[nodiscard]] static Result<Body> make(csg::Op op, const std::vector<csg::Solid>& operands);
+    static constexpr std::size_t kMostLeaves = 4096;
+
+    [[nodiscard]] const std::vector<Leaf>& leaves() const { return leaves_; }
+    [[nodiscard]] const std::vector<Face>& faces() const { return faces_; }
+    /// Of the operands joined.
+    [[nodiscard]] const Aabb& box() const { return box_; }
+    /// Where a point is, as its leaves decide it: on when a leaf on whose boundary it lies could change the answer.
+    [[nodiscard]] solids::Where where(Vec3 p) const;
+    /// Whether a point lies on the boundary of a face's leaf.
+    [[nodiscard]] bool is_on(const Face& face, Vec3 p) const;
+    /// "the top of the block"
+    [[nodiscard]] std::string name_of(const Face& face) const;
+
+private:
+    /// The Boolean in postfix form: a leaf, or an operation on the `count` values before it.
+    struct Step {
+        bool is_leaf = true;
+        csg::Op op = csg::Op::unite;
+        std::uint32_t count = 0;  ///< or the number of the leaf
+    };
+    [[nodiscard]] Result<void> add(const csg::Solid& solid, std::size_t operand);
+
+    std::vector<Leaf> leaves_;
+    std::vector<Face> faces_;
+    std::vector<Step> steps_;
+    Aabb box_;
+};
+
+/// Appends the faces of a leaf under a map that takes its kernel's frame to the body's; what can not be told goes to
+/// `leaf.unknown`. A cylinder that is scaled to an ellipse, for one, has only its two ends.
+void add_faces(Leaf& leaf, std::uint32_t index, std::vector<Face>& faces);
+
+}  // namespace raymo::blends

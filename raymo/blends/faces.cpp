@@ -1,0 +1,264 @@
+// Which of the five surfaces bound a leaf.
+//
+// A kernel's frame may be mapped to the body's by any affine map. Planes stay planes; a cylinder or a cone stays one where
+// its two cross axes keep one length and all three stay at right angles, a sphere or a torus where all lengths are equal,
+// too. How near to that a map has to be follows from the roundings of the maps it was made of, each some units of the last
+// place: kShape allows for 2^12 of them, and a surface that differs so little differs by 2^-40 of its size.
+#include <array>
+#include <cmath>
+
+#include "raymo/blends/body.hpp"
+#include "raymo/solids/crossings.hpp"
+
+namespace raymo::blends {
+namespace {
+
+constexpr double kShape = 0x1p-40;
+
+bool is_across(Vec3 a, Vec3 b) { return std::fabs(dot(a, b)) <= kShape * norm(a) * norm(b); }
+bool is_as_long(Vec3 a, Vec3 b) {
+    return std::fabs(norm(a) - norm(b)) <= kShape * std::max(norm(a), norm(b));
+}
+
+/// Whether circles about z stay circles at right angles to the image of z.
+bool keeps_round(const Mat3& m) {
+    return is_across(m.column(0), m.column(1)) && is_across(m.column(0), m.column(2)) &&
+           is_across(m.column(1), m.column(2)) && is_as_long(m.column(0), m.column(1));
+}
+bool keeps_shape(const Mat3& m) { return keeps_round(m) && is_as_long(m.column(0), m.column(2)); }
+
+class Faces {
+public:
+    Faces(Leaf& leaf, std::uint32_t index, std::vector<Face>& out)
+        : leaf_(leaf),
+          index_(index),
+          out_(out),
+          across_(0.5 * (norm(leaf.map.linear.column(0)) + norm(leaf.map.linear.column(1)))),
+          axis_(unit(leaf.map.linear.column(2))) {}
+
+    /// The plane through `at` with the outward normal `n`, both in the kernel's frame.
+    void plane(Vec3 at, Vec3 n, std::string_view name) {
+        Surface s;
+        s.kind = SurfaceKind::plane;
+        s.point = leaf_.map(at);
+        s.axis = unit(transposed_times(leaf_.inverse.linear, n));
+        add(s, 1.0, name);
+    }
+    void cylinder(Vec3 on_axis, double radius, double side, std::string_view name) {
+        Surface s;
+        s.kind = SurfaceKind::cylinder;
+        s.point = leaf_.map(on_axis);
+        s.axis = axis_;
+        s.radius = radius * across_;
+        add(s, side, name);
+    }
+    /// About the z axis, through two points (radius, z) of it.
+    void cone(Vec2 a, Vec2 b, double side, std::string_view name) {
+        if (a.x == b.x) return cylinder({}, a.x, side, name);
+        if (a.y == b.y) return;
+        const double apex = a.y + a.x * (b.y - a.y) / (a.x - b.x);
+        // Opening towards the wider end.
+        const double up = (a.x > b.x) == (a.y > b.y) ? 1.0 : -1.0;
+        const double rise = norm(leaf_.map.linear.column(2)) * std::fabs(b.y - a.y);
+        const double run = across_ * std::fabs(b.x - a.x);
+        Surface s;
+        s.kind = SurfaceKind::cone;
+        s.point = leaf_.map(Vec3{0, 0, apex});
+        s.axis = axis_ * up;
+        s.sine = run / std::hypot(rise, run);
+        s.cosine = rise / std::hypot(rise, run);
+        add(s, side, name);
+    }
+    void sphere(Vec3 centre, double radius, double side, std::string_view name) {
+        Surface s;
+        s.kind = SurfaceKind::sphere;
+        s.point = leaf_.map(centre);
+        s.axis = axis_;
+        s.radius = radius * across_;
+        add(s, side, name);
+    }
+    void torus(double z, double ring, double tube, double side, std::string_view name) {
+        Surface s;
+        s.kind = SurfaceKind::torus;
+        s.point = leaf_.map(Vec3{0, 0, z});
+        s.axis = axis_;
+        s.radius = ring * across_;
+        s.tube = tube * across_;
+        add(s, side, name);
+    }
+    void unknown(std::string_view why) { leaf_.unknown = why; }
+    [[nodiscard]] bool is_round() const { return keeps_round(leaf_.map.linear); }
+    [[nodiscard]] bool is_similar() const { return keeps_shape(leaf_.map.linear); }
+
+    void add(const Surface& surface, double side, std::string_view name) {
+        out_.push_back({surface, side, index_, name});
+    }
+
+private:
+    Leaf& leaf_;
+    std::uint32_t index_;
+    std::vector<Face>& out_;
+    double across_;  ///< length of the images of x and y
+    Vec3 axis_;
+};
+
+constexpr std::string_view kStretched = "it is stretched, so that its surface is none of those";
+constexpr std::string_view kFreeForm = "its wall is bounded by curves that are no lines or circles";
+
+/// What a span of a contour is.
+struct Shape {
+    enum Kind : std::uint8_t { other, line, circle } kind = other;
+    Vec2 centre;
+    double radius = 0.0;
+    double turn = 0.0;  ///< of a circle: +1 counter-clockwise
+};
+
+Shape shape_of(const curves::Piece& piece) {
+    const Vec2 a = piece.point(0);
+    const Vec2 d = piece.point(3);
+    const Vec2 chord = d - a;
+    const double length = norm(chord);
+    if (!(length > 0.0)) return {};
+    double bulge = 0.0;
+    for (std::size_t i = 1; i < 3; ++i) {
+        bulge = std::max(bulge, std::fabs(cross(chord, piece.point(i) - a)) / length);
+    }
+    const double noise = kShape * (length + max_norm(a) + max_norm(d));
+    if (bulge <= noise) return {Shape::line, {}, 0.0, 0.0};
+    const Vec2 b = curves::point_at(piece, 0.5);
+    const Vec2 p = b - a;
+    const double area = cross(p, chord);
+    if (area == 0.0) return {};
+    const Vec2 m = (dot(p, p) / (2.0 * area)) * chord - (dot(chord, chord) / (2.0 * area)) * p;
+    const Vec2 centre = a - Vec2{-m.y, m.x};
+    const double radius = norm(a - centre);
+    for (const double u : {0.125, 0.25, 0.375, 0.625, 0.75, 0.875}) {
+        // The centre is as uncertain as the radius is long for the chord.
+        const double slack = noise * (1.0 + radius * radius / (length * length));
+        if (!(std::fabs(norm(curves::point_at(piece, u) - centre) - radius) <= slack)) return {};
+    }
+    return {Shape::circle, centre, radius, area > 0.0 ? 1.0 : -1.0};
+}
+
+/// +1 where the region lies to the left of a piece, and so within a circle that is run counter-clockwise; 0 where both
+/// sides are alike.
+double left_side(const curves::Region& region, const curves::Piece& piece) {
+    const Vec2 at = curves::point_at(piece, 0.5);
+    const Vec2 t = curves::tangent(piece, 0.5);
+    const double length = norm(piece.point(3) - piece.point(0));
+    const Vec2 step = Vec2{-t.y, t.x} * (0x1p-20 * length / norm(t));
+    const bool left = region.where(at + step, {}) == curves::Side::in;
+    const bool right = region.where(at - step, {}) == curves::Side::in;
+    return left == right ? 0.0 : (left ? 1.0 : -1.0);
+}
+
+/// The outward normal of a straight piece.
+Vec2 normal_of(const curves::Piece& piece, double left) {
+    const Vec2 d = piece.point(3) - piece.point(0);
+    return Vec2{d.y, -d.x} * left;
+}
+
+void walls(const solids::ContourSweep& kernel, Faces& faces) {
+    faces.plane({0, 0, -1}, {0, 0, -1}, "bottom");
+    faces.plane({0, 0, 1}, {0, 0, 1}, "top");
+    if (kernel.ratio() != 1.0) return faces.unknown("it is a conic sweep");
+    for (const curves::Piece& piece : kernel.region().pieces()) {
+        const double left = left_side(kernel.region(), piece);
+        if (left == 0.0) continue;
+        const Shape shape = shape_of(piece);
+        if (shape.kind == Shape::line) {
+            const Vec2 a = piece.point(0);
+            const Vec2 n = normal_of(piece, left);
+            faces.plane({a.x, a.y, 0}, {n.x, n.y, 0}, "wall");
+        } else if (shape.kind == Shape::circle && faces.is_round()) {
+            faces.cylinder({shape.centre.x, shape.centre.y, 0}, shape.radius, left * shape.turn,
+                           "wall");
+        } else {
+            faces.unknown(shape.kind == Shape::circle ? kStretched : kFreeForm);
+        }
+    }
+}
+
+void turned_walls(const solids::Revolve::Kernel& kernel, Faces& faces) {
+    if (!faces.is_round()) return faces.unknown(kStretched);
+    if (kernel.angle() < 360.0) {
+        faces.plane({}, {0, -1, 0}, "start");
+        faces.plane({}, kernel.end_normal(), "end");
+    }
+    for (const curves::Piece& piece : kernel.region().pieces()) {
+        const double left = left_side(kernel.region(), piece);
+        if (left == 0.0) continue;
+        const Shape shape = shape_of(piece);
+        const Vec2 a = piece.point(0);
+        const Vec2 b = piece.point(3);
+        if (shape.kind == Shape::line) {
+            const Vec2 n = normal_of(piece, left);
+            // Within rounding of level.
+            if (std::fabs(b.y - a.y) <= kShape * std::fabs(b.x - a.x)) {
+                faces.plane({0, 0, a.y}, {0, 0, n.y}, "wall");
+            } else {
+                const bool upright = std::fabs(b.x - a.x) <= kShape * std::fabs(b.y - a.y);
+                faces.cone(a, upright ? Vec2{a.x, b.y} : b, n.x > 0.0 ? 1.0 : -1.0, "wall");
+            }
+        } else if (shape.kind == Shape::circle && faces.is_similar()) {
+            const double side = left * shape.turn;
+            if (std::fabs(shape.centre.x) <= kShape * shape.radius) {
+                faces.sphere({0, 0, shape.centre.y}, shape.radius, side, "wall");
+            } else {
+                faces.torus(shape.centre.y, shape.centre.x, shape.radius, side, "wall");
+            }
+        } else {
+            faces.unknown(shape.kind == Shape::circle ? kStretched : kFreeForm);
+        }
+    }
+}
+
+struct AddFaces {
+    Faces& faces;
+
+    void operator()(const solids::Block::Kernel& kernel) const {
+        for (std::uint16_t i = 0; i < 6; ++i) {
+            const Vec3 n = unit(kernel.normal({}, i));
+            faces.plane(n, n, kernel.faces()[i]);
+        }
+    }
+    void operator()(const solids::Sphere::Kernel&) const {
+        if (!faces.is_similar()) return faces.unknown(kStretched);
+        faces.sphere({}, 1.0, 1.0, "surface");
+    }
+    void operator()(const solids::Cylinder::Kernel& kernel) const {
+        faces.plane({0, 0, -1}, {0, 0, -1}, kernel.faces()[1]);
+        faces.plane({0, 0, 1}, {0, 0, 1}, kernel.faces()[2]);
+        if (!faces.is_round()) return faces.unknown(kStretched);
+        faces.cylinder({}, 1.0, 1.0, kernel.faces()[0]);
+    }
+    void operator()(const solids::Cone::Kernel& kernel) const {
+        faces.plane({0, 0, -1}, {0, 0, -1}, kernel.faces()[1]);
+        if (kernel.ratio() > 0.0) faces.plane({0, 0, 1}, {0, 0, 1}, kernel.faces()[2]);
+        if (!faces.is_round()) return faces.unknown(kStretched);
+        faces.cone({1.0, -1.0}, {kernel.ratio(), 1.0}, 1.0, kernel.faces()[0]);
+    }
+    void operator()(const solids::Torus::Kernel& kernel) const {
+        if (!faces.is_similar()) return faces.unknown(kStretched);
+        faces.torus(0.0, kernel.major_radius(), kernel.minor_radius(), 1.0, "surface");
+    }
+    void operator()(const solids::Halfspace::Kernel&) const { faces.plane({}, {0, 0, 1}, "plane"); }
+    void operator()(const solids::Prism::Kernel& kernel) const { walls(kernel, faces); }
+    void operator()(const solids::Conic::Kernel& kernel) const { walls(kernel, faces); }
+    void operator()(const solids::Revolve::Kernel& kernel) const { turned_walls(kernel, faces); }
+    template <class K>
+    void operator()(const K&) const {
+        faces.unknown("it is none of plane, sphere, cylinder, cone and torus");
+    }
+};
+
+}  // namespace
+
+void add_faces(Leaf& leaf, std::uint32_t index, std::vector<Face>& out) {
+    leaf.first_face = out.size();
+    Faces faces(leaf, index, out);
+    std::visit(AddFaces{faces}, csg::as_leaf(leaf.solid.node()).solid.kernel);
+    leaf.face_count = out.size() - leaf.first_face;
+}
+
+}  // namespace raymo::blends

@@ -1,0 +1,92 @@
+#include "raymo/blends/section.hpp"
+
+#include <cmath>
+
+namespace raymo::blends {
+namespace {
+
+Vec2 turned(Vec2 v) { return {-v.y, v.x}; }
+
+double signed_by(Branch branch, double value) { return branch == Branch::left ? value : -value; }
+
+}  // namespace
+
+double SectionCurve::distance(Vec2 p) const {
+    return side * (is_line ? dot(normal, p) - offset : norm(p - centre) - radius);
+}
+
+Vec2 SectionCurve::outward(Vec2 p) const {
+    if (is_line) return normal * side;
+    const Vec2 d = p - centre;
+    const double r = norm(d);
+    return r > 0.0 ? d * (side / r) : Vec2{side, 0.0};
+}
+
+std::optional<Vec2> meet(const SectionCurve& a, double from_a, const SectionCurve& b, double from_b,
+                         Branch branch) {
+    if (a.is_line && b.is_line) {
+        // The branches of one point: the left one.
+        if (branch == Branch::right) return std::nullopt;
+        const double det = cross(a.normal, b.normal);
+        if (det == 0.0) return std::nullopt;
+        const double ka = a.offset + a.side * from_a;
+        const double kb = b.offset + b.side * from_b;
+        const Vec2 p{(ka * b.normal.y - kb * a.normal.y) / det,
+                     (a.normal.x * kb - b.normal.x * ka) / det};
+        return is_finite(p) ? std::optional(p) : std::nullopt;
+    }
+    if (!a.is_line && b.is_line) {
+        return meet(b, from_b, a, from_a, branch);
+    }
+    const double rb = b.radius + b.side * from_b;
+    if (!(rb > 0.0)) return std::nullopt;
+    if (a.is_line) {
+        const double h = a.offset + a.side * from_a - dot(a.normal, b.centre);
+        const double square = (rb - h) * (rb + h);
+        if (!(square >= 0.0)) return std::nullopt;
+        return b.centre + a.normal * h + turned(a.normal) * signed_by(branch, std::sqrt(square));
+    }
+    const double ra = a.radius + a.side * from_a;
+    if (!(ra > 0.0)) return std::nullopt;
+    const Vec2 between = b.centre - a.centre;
+    const double d = norm(between);
+    if (!(d > 0.0)) return std::nullopt;
+    const Vec2 along = between * (1.0 / d);
+    const double x = 0.5 * (d + (ra - rb) * (ra + rb) / d);
+    const double square = (ra - x) * (ra + x);
+    if (!(square >= 0.0)) return std::nullopt;
+    return a.centre + along * x + turned(along) * signed_by(branch, std::sqrt(square));
+}
+
+curves::Span2 conic_arc(Vec2 a, Vec2 b, Vec2 c, double weight) {
+    // The rational parabola (a, w b, c) raised to degree 3.
+    const double w = (1.0 + 2.0 * weight) / 3.0;
+    const double k = 2.0 * weight / 3.0;
+    return {{a.x, a.x / 3.0 + k * b.x, c.x / 3.0 + k * b.x, c.x},
+            {a.y, a.y / 3.0 + k * b.y, c.y / 3.0 + k * b.y, c.y},
+            {1.0, w, w, 1.0}};
+}
+
+void append_arc(curves::Curve& curve, Vec2 centre, Vec2 a, Vec2 c) {
+    const Vec2 p = a - centre;
+    const Vec2 q = c - centre;
+    const double square = 0.5 * (dot(p, p) + dot(q, q));
+    const double cosine = dot(p, q) / square;
+    if (cosine < 0.0) {
+        // More than a quarter of a turn: in two halves, with the middle on the bisector, which for opposite ends is across.
+        const Vec2 sum = p + q;
+        const Vec2 across = turned(p - q);
+        const Vec2 bisector = norm(sum) * norm(sum) > 0x1p-20 * square
+                                  ? sum
+                                  : (dot(across, sum) < 0.0 ? -across : across);
+        const Vec2 middle = centre + bisector * (std::sqrt(square) / norm(bisector));
+        append_arc(curve, centre, a, middle);
+        append_arc(curve, centre, middle, c);
+        return;
+    }
+    // The tangents at the ends meet on the bisector, at (p + q) / (1 + cos): both have the same product with p and q.
+    const Vec2 corner = centre + (p + q) * (1.0 / (1.0 + cosine));
+    curve.spans.push_back(conic_arc(a, corner, c, std::sqrt(0.5 * (1.0 + cosine))));
+}
+
+}  // namespace raymo::blends

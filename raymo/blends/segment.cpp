@@ -1,0 +1,246 @@
+#include "raymo/blends/segment.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <numbers>
+
+namespace raymo::blends {
+namespace {
+
+using solids::Where;
+
+constexpr double kTurn = 2.0 * std::numbers::pi;
+/// Faces that meet at a smaller sine are continued by each other; there is no edge.
+constexpr double kSmooth = 0x1p-20;
+
+/// Faces at which an edge is crossed, by parameter.
+struct Mark {
+    double at;
+    std::size_t face;
+};
+
+class Search {
+public:
+    Search(const Body& body, bool within_operands, double reach)
+        : body_(body), within_operands_(within_operands), reach_(reach) {}
+
+    Found run() {
+        const auto& faces = body_.faces();
+        for (std::size_t i = 0; i < faces.size(); ++i) {
+            for (std::size_t k = i + 1; k < faces.size(); ++k) pair(i, k);
+        }
+        return std::move(found_);
+    }
+
+private:
+    [[nodiscard]] const Leaf& leaf_of(std::size_t face) const {
+        return body_.leaves()[body_.faces()[face].leaf];
+    }
+
+    void pair(std::size_t i, std::size_t k) {
+        const Leaf& p = leaf_of(i);
+        const Leaf& q = leaf_of(k);
+        if (!within_operands_ && p.operand == q.operand) return;
+        const double margin = 0x1p-20 * reach_;
+        const Aabb box = grown(body_.box(), margin);
+        if (overlap(overlap(grown(p.box, margin), grown(q.box, margin)), box).empty()) return;
+        const Meeting meeting = meeting_of(body_.faces()[i].surface, body_.faces()[k].surface);
+        if (meeting.is_general && &p != &q) found_.general.emplace_back(i, k);
+        for (const EdgeCurve& edge : meeting.edges) along(edge, i, k, box);
+    }
+
+    /// Which sectors are solid; of natural sides.
+    [[nodiscard]] Sectors sectors(const EdgeCurve& edge, double t) const {
+        const Vec2 na = edge.a.outward(edge.at);
+        const Vec2 nb = edge.b.outward(edge.at);
+        double step = 0x1p-14 * reach_;
+        for (const SectionCurve* c : {&edge.a, &edge.b}) {
+            if (!c->is_line) step = std::min(step, 0x1p-14 * c->radius);
+        }
+        if (edge.is_circle) step = std::min(step, 0x1p-14 * edge.at.x);
+        Sectors out = 0;
+        for (unsigned sector = 0; sector < 4; ++sector) {
+            const double sa = (sector & 2U) != 0 ? -1.0 : 1.0;
+            const double sb = (sector & 1U) != 0 ? -1.0 : 1.0;
+            const Vec2 w = na * sa + nb * sb;
+            // Along the bisector, as far from both as the step.
+            const double sine = std::fabs(dot(w, na)) / norm(w);
+            const Vec2 p = edge.at + w * (step / (std::max(sine, kSmooth) * norm(w)));
+            const Where where = body_.where(edge.place(p, t));
+            if (where == Where::on) return kUnknownSectors;
+            if (where == Where::in) out = static_cast<Sectors>(out | (1U << sector));
+        }
+        return out;
+    }
+
+    void along(const EdgeCurve& edge, std::size_t i, std::size_t k, const Aabb& box) {
+        const Vec2 na = edge.a.outward(edge.at);
+        const Vec2 nb = edge.b.outward(edge.at);
+        if (std::fabs(cross(na, nb)) < kSmooth) return;
+        double lo = 0.0;
+        double hi = kTurn;
+        if (!edge.is_circle && !clip(edge, box, lo, hi)) return;
+        marks_.clear();
+        std::vector<double> crossings;
+        for (std::size_t f = 0; f < body_.faces().size(); ++f) {
+            if (f == i || f == k) continue;
+            crossings.clear();
+            append_crossings(edge, edge.at, body_.faces()[f].surface, lo, hi, crossings);
+            for (const double at : crossings) marks_.push_back({at, f});
+        }
+        std::sort(marks_.begin(), marks_.end(),
+                  [](const Mark& a, const Mark& b) { return a.at < b.at; });
+        // Stretches between marks, each with its sectors; marks closer than their own errors are one.
+        const double tiny = 0x1p-30 * reach_ / edge.speed();
+        struct Stretch {
+            double lo, hi;
+            Sectors sectors;
+        };
+        std::vector<Stretch> stretches;
+        double from = lo;
+        const auto add = [&](double to) {
+            if (!(to - from > tiny)) return;
+            const Sectors now = sectors(edge, 0.5 * (from + to));
+            if (!stretches.empty() && stretches.back().sectors == now) {
+                stretches.back().hi = to;
+            } else {
+                stretches.push_back({from, to, now});
+            }
+            from = to;
+        };
+        for (const Mark& mark : marks_) add(mark.at);
+        add(hi);
+        if (stretches.empty()) return;
+        const std::size_t n = stretches.size();
+        if (edge.is_circle) {
+            if (n == 1) {
+                Segment segment;
+                segment.is_closed = true;
+                segment.lo = 0.0;
+                segment.hi = kTurn;
+                if (orient(edge, stretches[0].sectors, i, k, segment)) keep(std::move(segment));
+                return;
+            }
+            if (stretches.front().sectors == stretches.back().sectors) {
+                stretches.front().lo = stretches.back().lo - kTurn;
+                stretches.pop_back();
+            }
+        }
+        const std::size_t m = stretches.size();
+        for (std::size_t s = 0; s < m; ++s) {
+            Segment segment;
+            segment.lo = stretches[s].lo;
+            segment.hi = stretches[s].hi;
+            if (!orient(edge, stretches[s].sectors, i, k, segment)) continue;
+            const bool ring = edge.is_circle;
+            const Sectors before =
+                s > 0 ? stretches[s - 1].sectors : (ring ? stretches[m - 1].sectors : Sectors{0});
+            const Sectors after =
+                s + 1 < m ? stretches[s + 1].sectors : (ring ? stretches[0].sectors : Sectors{0});
+            set_end(segment, 0, segment.lo, before, tiny);
+            set_end(segment, 1, segment.hi, after, tiny);
+            keep(std::move(segment));
+        }
+    }
+
+    /// The part of a line within a box.
+    static bool clip(const EdgeCurve& edge, const Aabb& box, double& lo, double& hi) {
+        lo = -Aabb::kInf;
+        hi = Aabb::kInf;
+        const Vec3 p = edge.point(0.0);
+        for (int axis = 0; axis < 3; ++axis) {
+            const double d = edge.along[axis];
+            const double a = box.lo[axis] - p[axis];
+            const double b = box.hi[axis] - p[axis];
+            if (d == 0.0) {
+                if (a > 0.0 || b < 0.0) return false;
+                continue;
+            }
+            lo = std::max(lo, std::min(a / d, b / d));
+            hi = std::min(hi, std::max(a / d, b / d));
+        }
+        return lo < hi;
+    }
+
+    /// Turns the sides of a stretch's curves. False when it is no edge to blend.
+    bool orient(const EdgeCurve& edge, Sectors sectors, std::size_t i, std::size_t k,
+                Segment& segment) const {
+        if (sectors == kUnknownSectors) return false;
+        // Another face in the same surface may be the one that bounds the solid here.
+        const Vec3 middle = edge.point(segment.middle());
+        if (!body_.is_on(body_.faces()[i], middle) || !body_.is_on(body_.faces()[k], middle))
+            return false;
+        const int solid = std::popcount(static_cast<unsigned>(sectors));
+        if (solid != 1 && solid != 3) return false;
+        segment.is_convex = solid == 1;
+        const unsigned odd = segment.is_convex ? sectors : (~sectors & 0xfU);
+        const auto sector = static_cast<unsigned>(std::countr_zero(odd));
+        segment.edge = edge;
+        segment.face_a = i;
+        segment.face_b = k;
+        // The odd sector is the inner one of a convex edge, the outer one of a concave edge.
+        const unsigned inner = segment.is_convex ? 1U : 0U;
+        segment.edge.a.side = ((sector >> 1U) & 1U) == inner ? 1.0 : -1.0;
+        segment.edge.b.side = (sector & 1U) == inner ? 1.0 : -1.0;
+        return true;
+    }
+
+    void set_end(Segment& segment, std::size_t which, double at, Sectors beyond, double tiny) {
+        End& end = segment.ends[which];
+        end.at = at;
+        end.point = segment.edge.point(at);
+        for (const Mark& mark : marks_) {
+            double d = std::fabs(mark.at - at);
+            if (segment.edge.is_circle) d = std::min(d, std::fabs(d - kTurn));
+            if (d <= 4.0 * tiny) end.faces.push_back(mark.face);
+        }
+        if (beyond == kUnknownSectors) {
+            end.beyond = kUnknownSectors;
+            return;
+        }
+        // By the turned sides, and for a convex edge of the complement.
+        for (unsigned sector = 0; sector < 4; ++sector) {
+            unsigned natural = sector;
+            if (segment.edge.a.side < 0.0) natural ^= 2U;
+            if (segment.edge.b.side < 0.0) natural ^= 1U;
+            if (segment.is_convex) natural ^= 3U;
+            const bool solid = ((beyond >> natural) & 1U) != 0;
+            if (solid != segment.is_convex) {
+                end.beyond = static_cast<Sectors>(end.beyond | (1U << sector));
+            }
+        }
+    }
+
+    /// Unless there is one already: of faces that lie in the same surface.
+    void keep(Segment segment) {
+        const Vec3 here = segment.edge.point(segment.middle());
+        for (const Segment& other : found_.segments) {
+            if (other.is_convex != segment.is_convex ||
+                other.edge.is_circle != segment.edge.is_circle)
+                continue;
+            const Vec3 there = other.edge.point(other.middle());
+            if (!(norm(here - there) <= 0x1p-30 * (reach_ + norm(here)))) continue;
+            const Vec3 n =
+                segment.edge.turn(segment.edge.a.outward(segment.edge.at), segment.middle());
+            const Vec3 na = other.edge.turn(other.edge.a.outward(other.edge.at), other.middle());
+            const Vec3 nb = other.edge.turn(other.edge.b.outward(other.edge.at), other.middle());
+            if (norm(n - na) < kSmooth || norm(n - nb) < kSmooth) return;
+        }
+        found_.segments.push_back(std::move(segment));
+    }
+
+    const Body& body_;
+    bool within_operands_;
+    double reach_;
+    std::vector<Mark> marks_;
+    Found found_;
+};
+
+}  // namespace
+
+Found find_segments(const Body& body, bool within_operands, double reach) {
+    return Search(body, within_operands, reach).run();
+}
+
+}  // namespace raymo::blends

@@ -1,0 +1,50 @@
+// The stretches of edges that are to be blended.
+#pragma once
+
+#include <vector>
+
+#include "raymo/blends/blend.hpp"
+#include "raymo/blends/body.hpp"
+#include "raymo/blends/edge.hpp"
+
+namespace raymo::blends {
+
+/// Which of the four sectors about an edge are solid: bit 2 a + b, where a (b) is 1 on the inner side of face a (b).
+using Sectors = std::uint8_t;
+inline constexpr Sectors kUnknownSectors = 0x80;
+
+/// Where a stretch ends.
+struct End {
+    double at = 0.0;  ///< parameter of the edge
+    Sectors beyond =
+        0;  ///< what the edge looks like there, seen as of a concave edge (Segment::is_convex)
+    std::vector<std::size_t> faces;  ///< others that are met there
+    Vec3 point;
+};
+
+/// A stretch of an edge along which it is convex or concave all the way. The sides of edge.a and edge.b are turned so that
+/// the solid of a convex edge is where both distances are negative, and the empty space at a concave one where both are positive.
+struct Segment {
+    EdgeCurve edge;
+    std::size_t face_a = 0, face_b = 0;
+    bool is_convex = true;
+    bool is_closed = false;  ///< a whole circle
+    double lo = 0.0, hi = 0.0;
+    End ends[2];  ///< unless closed
+
+    /// The sign of the distances from both faces to the centre of the ball.
+    [[nodiscard]] double sign() const { return is_convex ? -1.0 : 1.0; }
+    [[nodiscard]] double middle() const { return 0.5 * (lo + hi); }
+};
+
+/// What a search for edges found.
+struct Found {
+    std::vector<Segment> segments;
+    /// Pairs of faces that may meet in curves other than lines and circles.
+    std::vector<std::pair<std::size_t, std::size_t>> general;
+};
+/// All stretches between faces of different operands, or of all faces. `reach`: the size of what is to be blended, for how close
+/// to an edge its sectors are looked at. The box of the body must be bounded.
+[[nodiscard]] Found find_segments(const Body& body, bool within_operands, double reach);
+
+}  // namespace raymo::blends

@@ -1,0 +1,87 @@
+#include "raymo/blends/surface.hpp"
+
+#include <cmath>
+
+namespace raymo::blends {
+namespace {
+
+struct Polar {
+    double along;    ///< the axis, from the surface's point
+    double across;   ///< distance from the axis
+    Vec3 direction;  ///< unit, away from the axis
+};
+
+Polar polar(const Surface& s, Vec3 p) {
+    const Vec3 d = p - s.point;
+    const double along = dot(d, s.axis);
+    const Vec3 away = d - along * s.axis;
+    const double across = norm(away);
+    if (across > 0.0) return {along, across, away / across};
+    Vec3 u;
+    Vec3 v;
+    make_frame(s.axis, u, v);
+    return {along, 0.0, u};
+}
+
+}  // namespace
+
+std::string_view kind_name(SurfaceKind kind) {
+    switch (kind) {
+        case SurfaceKind::plane:
+            return "plane";
+        case SurfaceKind::sphere:
+            return "sphere";
+        case SurfaceKind::cylinder:
+            return "cylinder";
+        case SurfaceKind::cone:
+            return "cone";
+        case SurfaceKind::torus:
+            return "torus";
+    }
+    return "";
+}
+
+double Surface::distance(Vec3 p) const {
+    switch (kind) {
+        case SurfaceKind::plane:
+            return dot(p - point, axis);
+        case SurfaceKind::sphere:
+            return norm(p - point) - radius;
+        case SurfaceKind::cylinder:
+            return polar(*this, p).across - radius;
+        case SurfaceKind::cone: {
+            const Polar q = polar(*this, p);
+            return q.across * cosine - q.along * sine;
+        }
+        case SurfaceKind::torus: {
+            const Polar q = polar(*this, p);
+            return std::hypot(q.across - radius, q.along) - tube;
+        }
+    }
+    return 0.0;
+}
+
+Vec3 Surface::normal(Vec3 p) const {
+    switch (kind) {
+        case SurfaceKind::plane:
+            return axis;
+        case SurfaceKind::sphere: {
+            const Vec3 d = p - point;
+            const double r = norm(d);
+            return r > 0.0 ? d / r : Vec3{1, 0, 0};
+        }
+        case SurfaceKind::cylinder:
+            return polar(*this, p).direction;
+        case SurfaceKind::cone:
+            return polar(*this, p).direction * cosine - axis * sine;
+        case SurfaceKind::torus: {
+            const Polar q = polar(*this, p);
+            const double x = q.across - radius;
+            const double r = std::hypot(x, q.along);
+            return r > 0.0 ? q.direction * (x / r) + axis * (q.along / r) : q.direction;
+        }
+    }
+    return axis;
+}
+
+}  // namespace raymo::blends

@@ -1,0 +1,310 @@
+#include "raymo/blends/vertex.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "raymo/blends/make.hpp"
+
+namespace raymo::blends {
+namespace {
+
+constexpr double kSmooth = 0x1p-20;
+/// A wedge is run on at most so many times its own extent: sharper mitres are cut off there.
+constexpr double kLongestRun = 32.0;
+
+// Sectors of an end (segment.hpp), as of a concave edge.
+constexpr Sectors kAll = 0xf;
+constexpr Sectors kOnlyA = 0xc;  // inside a: bits 2 and 3
+constexpr Sectors kOnlyB = 0xa;  // inside b: bits 1 and 3
+
+bool is_same_place(Vec3 a, Vec3 b, double size) {
+    return norm(a - b) <= 0x1p-24 * (size + max_norm(a) * 0x1p-20);
+}
+
+/// Whether two faces lie in one surface.
+bool is_same_surface(const Body& body, std::size_t i, std::size_t k, Vec3 at) {
+    if (i == k) return true;
+    const Surface& p = body.faces()[i].surface;
+    const Surface& q = body.faces()[k].surface;
+    return p.kind == q.kind && norm(cross(p.normal(at), q.normal(at))) < kSmooth &&
+           std::fabs(p.radius - q.radius) <= 0x1p-30 * std::fabs(p.radius);
+}
+
+bool has_face(const Body& body, const Segment& s, std::size_t face, Vec3 at) {
+    return is_same_surface(body, s.face_a, face, at) || is_same_surface(body, s.face_b, face, at);
+}
+
+/// The job, other than `job`, that ends where that does and is an edge of both faces.
+std::optional<std::size_t> job_of(const Body& body, const std::vector<Job>& jobs, std::size_t job,
+                                  Vec3 at, std::size_t face, std::size_t other) {
+    for (std::size_t i = 0; i < jobs.size(); ++i) {
+        const Segment& s = jobs[i].segment;
+        if (i == job || s.is_closed || s.is_convex != jobs[job].segment.is_convex) continue;
+        for (const End& end : s.ends) {
+            if (is_same_place(end.point, at, jobs[job].wedge.radius) &&
+                has_face(body, s, face, at) && has_face(body, s, other, at)) {
+                return i;
+            }
+        }
+    }
+    return std::nullopt;
+}
+
+/// A solid with a surface as its boundary near `at`: on its inner side, and as large as `reach` there.
+Result<csg::Solid> inner_side(const Surface& s, Vec3 at, double reach, SourceSpan span) {
+    const auto placed = [&](Result<csg::Solid> solid, Vec3 origin) {
+        if (!solid) return solid;
+        Vec3 u;
+        Vec3 v;
+        make_frame(s.axis, u, v);
+        Affine map;
+        for (int i = 0; i < 3; ++i)
+            map.linear.row[static_cast<std::size_t>(i)] = {u[i], v[i], s.axis[i]};
+        map.offset = origin;
+        return csg::transform(std::move(*solid), map, span);
+    };
+    const double along = dot(at - s.point, s.axis);
+    switch (s.kind) {
+        case SurfaceKind::plane:
+            return make<solids::Halfspace>({s.axis, dot(s.axis, s.point)}, span);
+        case SurfaceKind::sphere:
+            return placed(make<solids::Sphere>({s.radius}, span), s.point);
+        case SurfaceKind::cylinder:
+            return placed(make<solids::Cylinder>({s.radius, 4.0 * reach, true}, span),
+                          s.point + s.axis * along);
+        case SurfaceKind::cone: {
+            const double height = std::fabs(along) + 2.0 * reach;
+            return placed(
+                make<solids::Cone>({0.0, height * s.sine / s.cosine, height, false}, span),
+                s.point);
+        }
+        case SurfaceKind::torus:
+            return placed(make<solids::Torus>({s.radius, s.tube}, span), s.point);
+    }
+    return fail(ErrorCode::evaluation, "unknown surface");
+}
+
+/// The part of `wedge` on the segment's own side of a face, and what of `more` there is beyond it.
+Result<csg::Solid> on_own_side(csg::Solid wedge, const Segment& segment, std::size_t end,
+                               const Surface& surface, double reach, const csg::Solid& more,
+                               SourceSpan span) {
+    const Vec3 at = segment.ends[end].point;
+    auto inner = inner_side(surface, at, reach, span);
+    if (!inner) return inner;
+    const Vec3 forth = segment.edge.tangent(segment.ends[end].at) * (end == 0 ? 1.0 : -1.0);
+    const bool is_inner = dot(surface.normal(at), forth) < 0.0;
+    if (is_inner) {
+        csg::Solid kept = more ? csg::boolean(csg::Op::unite, {*inner, more}, span) : *inner;
+        return csg::boolean(csg::Op::intersection, {std::move(wedge), std::move(kept)}, span);
+    }
+    csg::Solid lost = more ? csg::boolean(csg::Op::difference, {*inner, more}, span) : *inner;
+    return csg::boolean(csg::Op::difference, {std::move(wedge), std::move(lost)}, span);
+}
+
+}  // namespace
+
+EndPlan plan_of(const Body& body, const std::vector<Job>& jobs, std::size_t job, std::size_t end) {
+    const Segment& s = jobs[job].segment;
+    const End& at = s.ends[end];
+    if (at.beyond == kAll) {
+        // A face that continues a or b without an edge ends the wedge; where the tube goes on it has a wedge of its own.
+        for (const std::size_t f : at.faces) {
+            const Surface& surface = body.faces()[f].surface;
+            if (std::fabs(dot(surface.normal(at.point), s.edge.tangent(at.at))) > kSmooth)
+                return {Ending::run_on, f, std::nullopt};
+        }
+        return {Ending::flat, 0, std::nullopt};
+    }
+    EndPlan plan;
+    for (const std::size_t f : at.faces) {
+        const Surface& surface = body.faces()[f].surface;
+        const Vec3 n = surface.normal(at.point);
+        if (std::fabs(dot(n, s.edge.tangent(at.at))) <= kSmooth) continue;
+        if (plan.ending == Ending::flat) plan = {Ending::cut, f, std::nullopt};
+        if (at.beyond != kOnlyA && at.beyond != kOnlyB) continue;
+        const std::size_t stays = at.beyond == kOnlyA ? s.face_a : s.face_b;
+        if (const auto next = job_of(body, jobs, job, at.point, stays, f)) {
+            return {Ending::mitre, f, next};
+        }
+    }
+    return plan;
+}
+
+void extend(const Body& body, std::vector<Job>& jobs, std::size_t job,
+            const std::array<EndPlan, 2>& plans) {
+    Job& self = jobs[job];
+    const Segment& s = self.segment;
+    self.lo = s.lo;
+    self.hi = s.hi;
+    if (s.is_closed) return;
+    const double extent = extent_of(s, self.wedge);
+    for (std::size_t end = 0; end < 2; ++end) {
+        const EndPlan& plan = plans[end];
+        if (plan.ending == Ending::flat) continue;
+        const double limit = kLongestRun * extent / s.edge.speed();
+        double run = reach_past(s, self.wedge, end, body.faces()[plan.face].surface, limit);
+        run += 0x1p-10 * extent / s.edge.speed();
+        if (plan.next) {
+            // Along both edges the mitre's tip is as far away as half the angle between them says.
+            const Job& next = jobs[*plan.next];
+            const std::size_t there =
+                is_same_place(next.segment.ends[0].point, s.ends[end].point, extent) ? 0 : 1;
+            const Vec3 mine = s.edge.tangent(s.ends[end].at) * (end == 0 ? 1.0 : -1.0);
+            const Vec3 its =
+                next.segment.edge.tangent(next.segment.ends[there].at) * (there == 0 ? 1.0 : -1.0);
+            const double half = 0.5 * std::acos(std::clamp(dot(mine, its), -1.0, 1.0));
+            const double width = std::max(extent, extent_of(next.segment, next.wedge));
+            run += 2.0 * width / std::max(std::tan(half), 1.0 / kLongestRun) / s.edge.speed();
+        }
+        run = std::min(run, limit);
+        (end == 0 ? self.lo : self.hi) += end == 0 ? -run : run;
+    }
+    if (s.edge.is_circle) {
+        const double excess = (self.hi - self.lo) - 2.0 * std::numbers::pi;
+        if (excess > 0.0) {
+            self.lo += 0.5 * excess;
+            self.hi -= 0.5 * excess;
+        }
+    }
+}
+
+Result<csg::Solid> cut_at_ends(const Body& body, const std::vector<Job>& jobs, std::size_t job,
+                               const std::array<EndPlan, 2>& plans, SourceSpan span) {
+    const Job& self = jobs[job];
+    Result<csg::Solid> solid = self.solid;
+    if (self.segment.is_closed) return solid;
+    const double reach = (self.hi - self.lo) * self.segment.edge.speed() +
+                         2.0 * kLongestRun * extent_of(self.segment, self.wedge);
+    for (std::size_t end = 0; end < 2; ++end) {
+        const EndPlan& plan = plans[end];
+        if (plan.ending != Ending::cut && plan.ending != Ending::mitre) continue;
+        solid = on_own_side(std::move(*solid), self.segment, end, body.faces()[plan.face].surface,
+                            reach, plan.next ? jobs[*plan.next].solid : csg::Solid{}, span);
+        if (!solid) return solid;
+    }
+    return solid;
+}
+
+namespace {
+
+/// Three faces with blended edges between each two.
+struct Corner {
+    Vec3 point;
+    bool is_convex;
+    std::vector<std::size_t> faces;
+    std::vector<double> sides;  ///< of the faces
+    std::size_t edges = 0;
+};
+
+void add_to(const Body& body, Corner& corner, std::size_t face, double side) {
+    for (const std::size_t f : corner.faces) {
+        if (is_same_surface(body, f, face, corner.point)) return;
+    }
+    corner.faces.push_back(face);
+    corner.sides.push_back(side);
+}
+
+/// The point at the distances `d` from three faces, by Newton's method from `p`.
+std::optional<Vec3> meet(const Body& body, const Corner& corner, double d, Vec3 p) {
+    for (int i = 0; i < 50; ++i) {
+        Mat3 m;
+        Vec3 off;
+        for (int k = 0; k < 3; ++k) {
+            const auto at = static_cast<std::size_t>(k);
+            const Surface& s = body.faces()[corner.faces[at]].surface;
+            m.row[at] = s.normal(p) * corner.sides[at];
+            off[k] = d - s.distance(p) * corner.sides[at];
+        }
+        if (!is_invertible(m)) return std::nullopt;
+        const Vec3 step = inverse(m) * off;
+        p = p + step;
+        if (!is_finite(p)) return std::nullopt;
+        if (norm(step) <= 8.0 * 0x1p-53 * (max_norm(p) + std::fabs(d))) return p;
+    }
+    return std::nullopt;
+}
+
+/// Between the ball at `c` and the planes through c and two of its contacts each: a pyramid without end but for the planes
+/// that touch the ball at the contacts, moved away a little.
+Result<csg::Solid> ball_corner(const std::array<Vec3, 3>& to_contact, Vec3 c, double radius,
+                               SourceSpan span) {
+    std::vector<csg::Solid> sides;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const Vec3 p = to_contact[i];
+        const Vec3 q = to_contact[(i + 1) % 3];
+        const Vec3 r = to_contact[(i + 2) % 3];
+        Vec3 n = cross(p, q);
+        if (dot(n, r) > 0.0) n = -n;
+        auto side = make<solids::Halfspace>({n, dot(n, c)}, span);
+        if (!side) return side;
+        sides.push_back(std::move(*side));
+        auto end = make<solids::Halfspace>({p, dot(p, c) + radius * (1.0 + 0x1p-20)}, span);
+        if (!end) return end;
+        sides.push_back(std::move(*end));
+    }
+    auto ball = make<solids::Sphere>({radius}, span);
+    if (!ball) return ball;
+    ball = csg::transform(std::move(*ball), translation(c), span);
+    if (!ball) return ball;
+    return csg::boolean(csg::Op::difference,
+                        {csg::boolean(csg::Op::intersection, std::move(sides), span), *ball}, span);
+}
+
+}  // namespace
+
+Result<std::vector<std::pair<csg::Solid, bool>>> corners_of(const Body& body,
+                                                            const std::vector<Job>& jobs,
+                                                            const Form& form, SourceSpan span) {
+    std::vector<Corner> corners;
+    for (const Job& job : jobs) {
+        const Segment& s = job.segment;
+        if (s.is_closed) continue;
+        for (const End& end : s.ends) {
+            if (end.beyond != kAll) continue;
+            auto corner = std::find_if(corners.begin(), corners.end(), [&](const Corner& c) {
+                return c.is_convex == s.is_convex && is_same_place(c.point, end.point, form.radius);
+            });
+            if (corner == corners.end()) {
+                corners.push_back({end.point, s.is_convex, {}, {}, 0});
+                corner = corners.end() - 1;
+            }
+            ++corner->edges;
+            add_to(body, *corner, s.face_a, s.edge.a.side);
+            add_to(body, *corner, s.face_b, s.edge.b.side);
+        }
+    }
+    std::vector<std::pair<csg::Solid, bool>> out;
+    for (const Corner& corner : corners) {
+        if (corner.edges < 3) continue;
+        if (corner.faces.size() > 3) {
+            return fail(ErrorCode::bad_argument,
+                        "more than three faces meet in one corner, which no ball touches all of",
+                        "blend these edges one after another, with `near` or `where`");
+        }
+        if (corner.faces.size() < 3 || form.profile != Profile::ball) continue;
+        const double d = corner.is_convex ? -form.radius : form.radius;
+        const auto centre = meet(body, corner, d, corner.point);
+        if (!centre) {
+            return fail(ErrorCode::out_of_range,
+                        "no ball of this radius fits the corner where " +
+                            body.name_of(body.faces()[corner.faces[0]]) + ", " +
+                            body.name_of(body.faces()[corner.faces[1]]) + " and " +
+                            body.name_of(body.faces()[corner.faces[2]]) + " meet",
+                        "take a smaller radius");
+        }
+        std::array<Vec3, 3> to_contact;
+        for (std::size_t i = 0; i < 3; ++i) {
+            const Surface& s = body.faces()[corner.faces[i]].surface;
+            to_contact[i] =
+                s.normal(*centre) * (corner.is_convex ? corner.sides[i] : -corner.sides[i]);
+        }
+        auto solid = ball_corner(to_contact, *centre, form.radius, span);
+        if (!solid) return Failure(std::move(solid).error());
+        out.emplace_back(std::move(*solid), corner.is_convex);
+    }
+    return out;
+}
+
+}  // namespace raymo::blends

@@ -1,0 +1,48 @@
+// Where blended edges end: how their wedges are cut there, and the ball in the corner of three.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "raymo/blends/wedge.hpp"
+
+namespace raymo::blends {
+
+/// A segment that is to be blended.
+struct Job {
+    Segment segment;
+    Wedge wedge;
+    double lo = 0.0, hi = 0.0;  ///< the wedge, run on beyond the ends as far as it takes
+    csg::Solid solid;           ///< the wedge so far
+};
+
+/// How a wedge goes on at one end.
+enum class Ending : std::uint8_t {
+    flat,    ///< cut across: the edge is continued smoothly, or nothing is known
+    run_on,  ///< into what the Boolean makes of it anyway
+    cut,     ///< by the third face
+    mitre,   ///< by the third face, or with the wedge of the edge that goes on from here
+};
+struct EndPlan {
+    Ending ending = Ending::flat;
+    std::size_t face = 0;             ///< the third face, of cut and mitre
+    std::optional<std::size_t> next;  ///< the job that it is mitred with
+};
+[[nodiscard]] EndPlan plan_of(const Body& body, const std::vector<Job>& jobs, std::size_t job,
+                              std::size_t end);
+
+/// Runs the wedge of a job on as its plans ask for.
+void extend(const Body& body, std::vector<Job>& jobs, std::size_t job,
+            const std::array<EndPlan, 2>& plans);
+
+/// The wedge of a job, cut at its ends. Jobs' own solids must have been made.
+[[nodiscard]] Result<csg::Solid> cut_at_ends(const Body& body, const std::vector<Job>& jobs,
+                                             std::size_t job, const std::array<EndPlan, 2>& plans,
+                                             SourceSpan span);
+
+/// What is left over in corners where three edges of one kind are blended: between the three wedges and the ball that touches
+/// all three faces. Error: more than three faces meet in a corner.
+[[nodiscard]] Result<std::vector<std::pair<csg::Solid, bool>>> corners_of(
+    const Body& body, const std::vector<Job>& jobs, const Form& form, SourceSpan span);
+
+}  // namespace raymo::blends

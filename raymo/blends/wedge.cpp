@@ -1,0 +1,192 @@
+#include "raymo/blends/wedge.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "raymo/blends/make.hpp"
+
+namespace raymo::blends {
+namespace {
+
+using solids::Where;
+
+/// How far a wedge reaches beyond the faces, as part of its radius: far more than roundings, far less than anything seen.
+constexpr double kBeyond = 0x1p-20;
+/// A face is in a ball's way when it comes nearer to its centre than the radius by more than this part of it.
+constexpr double kPress = 0x1p-20;
+constexpr double kDegrees = 180.0 / std::numbers::pi;
+
+void append_line(curves::Curve& curve, Vec2 a, Vec2 b) {
+    if (a != b) curve.spans.push_back(curves::segment(a, b));
+}
+
+/// Along a face's line or circle, moved beyond it.
+void append_side(curves::Curve& curve, const SectionCurve& side, Vec2 a, Vec2 b) {
+    if (side.is_line) {
+        append_line(curve, a, b);
+    } else if (a != b) {
+        append_arc(curve, side.centre, a, b);
+    }
+}
+
+curves::Outline outline_of(const Segment& segment, const Wedge& w, const Form& form) {
+    curves::Curve curve;
+    append_side(curve, segment.edge.a, w.behind[0], w.corner);
+    append_side(curve, segment.edge.b, w.corner, w.behind[1]);
+    append_line(curve, w.behind[1], w.contact[1]);
+    switch (form.profile) {
+        case Profile::ball:
+            append_arc(curve, w.centre, w.contact[1], w.contact[0]);
+            break;
+        case Profile::chamfer:
+            append_line(curve, w.contact[1], w.contact[0]);
+            break;
+        case Profile::conic:
+            curve.spans.push_back(conic_arc(w.contact[1], segment.edge.at, w.contact[0],
+                                            std::sqrt(0.5 * (1.0 - form.shape))));
+            break;
+    }
+    append_line(curve, w.contact[0], w.behind[0]);
+    curve.closed = true;
+    curves::Outline outline;
+    outline.curves.push_back(std::move(curve));
+    return outline;
+}
+
+/// What is solid next to a contact: the ball may touch a face only where it bounds the body.
+Fitting at_contact(const Body& body, const Segment& segment, const Wedge& w, double t) {
+    for (std::size_t i = 0; i < 2; ++i) {
+        const SectionCurve& side = i == 0 ? segment.edge.a : segment.edge.b;
+        const Vec2 step = side.outward(w.contact[i]) * (0x1p-14 * w.radius);
+        const Where inner = body.where(segment.edge.place(w.contact[i] - step, t));
+        const Where outer = body.where(segment.edge.place(w.contact[i] + step, t));
+        if (inner == Where::out || outer == Where::in) {
+            return {Fit::off_face, i == 0 ? segment.face_a : segment.face_b};
+        }
+    }
+    return {};
+}
+
+/// Whether another face comes into the ball.
+Fitting around(const Body& body, const Segment& segment, const Wedge& w, double t) {
+    const Vec3 c = segment.edge.place(w.centre, t);
+    for (std::size_t f = 0; f < body.faces().size(); ++f) {
+        if (f == segment.face_a || f == segment.face_b) continue;
+        const Surface& surface = body.faces()[f].surface;
+        const double d = surface.distance(c);
+        if (!(std::fabs(d) < (1.0 - kPress) * w.radius)) continue;
+        const Vec3 n = surface.normal(c);
+        const Vec3 foot = c - n * d;
+        if (!body.is_on(body.faces()[f], foot)) continue;
+        const Vec3 step = n * (0x1p-14 * w.radius);
+        const Where a = body.where(foot - step);
+        const Where b = body.where(foot + step);
+        if (a != b && a != Where::on && b != Where::on) return {Fit::blocked, f};
+    }
+    return {};
+}
+
+}  // namespace
+
+std::optional<Wedge> wedge_of(const Segment& segment, double radius) {
+    const double s = segment.sign();
+    const EdgeCurve& e = segment.edge;
+    const auto centre = meet(e.a, s * radius, e.b, s * radius, e.branch);
+    const double beyond = -s * kBeyond * radius;
+    const auto corner = meet(e.a, beyond, e.b, beyond, e.branch);
+    if (!centre || !corner) return std::nullopt;
+    Wedge w;
+    w.radius = radius;
+    w.centre = *centre;
+    w.corner = *corner;
+    for (std::size_t i = 0; i < 2; ++i) {
+        const SectionCurve& side = i == 0 ? e.a : e.b;
+        w.contact[i] = w.centre - side.outward(w.centre) * (s * radius);
+        w.behind[i] = w.contact[i] + side.outward(w.contact[i]) * beyond;
+        if (e.is_circle && !(w.contact[i].x >= 0.0 && w.behind[i].x >= 0.0)) return std::nullopt;
+    }
+    // A ball beyond the axis would touch its own other side.
+    if (e.is_circle && !(w.centre.x >= 0.0 && w.corner.x >= 0.0)) return std::nullopt;
+    return w;
+}
+
+double extent_of(const Segment& segment, const Wedge& w) {
+    double extent = 0.0;
+    for (const Vec2 p : {w.contact[0], w.contact[1], w.corner, w.centre}) {
+        extent = std::max(extent, norm(p - segment.edge.at));
+    }
+    return extent;
+}
+
+Fitting fitting_of(const Body& body, const Segment& segment, double radius) {
+    const auto w = wedge_of(segment, radius);
+    if (!w) return {Fit::none, 0};
+    double lo = segment.lo;
+    double hi = segment.hi;
+    if (!segment.is_closed) {
+        // At its ends it is another's concern.
+        const double margin = extent_of(segment, *w) / segment.edge.speed();
+        lo = std::min(lo + margin, segment.middle());
+        hi = std::max(hi - margin, segment.middle());
+    }
+    constexpr int kPlaces = 16;
+    for (int i = 0; i < kPlaces; ++i) {
+        const double t = lo + (hi - lo) * (i + 0.5) / kPlaces;
+        if (const Fitting f = at_contact(body, segment, *w, t); f.fit != Fit::good) return f;
+        if (const Fitting f = around(body, segment, *w, t); f.fit != Fit::good) return f;
+        if (lo == hi) break;
+    }
+    return {};
+}
+
+Result<csg::Solid> solid_of(const Segment& segment, const Wedge& wedge, const Form& form, double lo,
+                            double hi, SourceSpan span) {
+    const EdgeCurve& e = segment.edge;
+    auto outline = std::make_shared<const curves::Outline>(outline_of(segment, wedge, form));
+    Affine map;
+    Vec3 u = e.across;
+    Vec3 v = e.up;
+    if (e.is_circle) {
+        u = e.across * std::cos(lo) + e.up * std::sin(lo);
+        v = cross(e.along, u);
+    }
+    for (int i = 0; i < 3; ++i) {
+        map.linear.row[static_cast<std::size_t>(i)] = {u[i], v[i], e.along[i]};
+    }
+    map.offset = e.is_circle ? e.origin : e.origin + e.along * lo;
+    auto solid = e.is_circle
+                     ? make<solids::Revolve>(
+                           {std::move(outline),
+                            segment.is_closed ? 360.0 : std::min((hi - lo) * kDegrees, 360.0)},
+                           span)
+                     : make<solids::Prism>({std::move(outline), hi - lo, false}, span);
+    if (!solid) return solid;
+    return csg::transform(std::move(*solid), map, span);
+}
+
+double reach_past(const Segment& segment, const Wedge& wedge, std::size_t end,
+                  const Surface& surface, double limit) {
+    const double sign = end == 0 ? -1.0 : 1.0;
+    const double at = segment.ends[end].at;
+    double reach = 0.0;
+    std::vector<double> crossings;
+    for (const Vec2 p : {wedge.contact[0], wedge.contact[1], wedge.corner, wedge.centre}) {
+        crossings.clear();
+        const double lo = sign > 0.0 ? at : at - limit;
+        append_crossings(segment.edge, p, surface, lo, lo + limit, crossings);
+        double nearest = limit;
+        for (const double t : crossings) {
+            double beyond = sign * (t - at);
+            if (segment.edge.is_circle) {
+                beyond = std::remainder(beyond, 2.0 * std::numbers::pi);
+            }
+            if (beyond >= 0.0) nearest = std::min(nearest, beyond);
+        }
+        // What is past it already counts as nothing.
+        if (nearest < limit) reach = std::max(reach, nearest);
+    }
+    return reach;
+}
+
+}  // namespace raymo::blends

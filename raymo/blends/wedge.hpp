@@ -1,0 +1,48 @@
+// The wedge between two faces and the ball that rolls along them: what a round takes away and a fillet adds.
+#pragma once
+
+#include <optional>
+
+#include "raymo/blends/segment.hpp"
+
+namespace raymo::blends {
+
+/// A wedge in the section of its edge. It reaches a little beyond both faces, to the side where the Boolean does not care, so
+/// that it has no face in common with what it is joined to.
+struct Wedge {
+    double radius = 0.0;
+    Vec2 centre;      ///< of the ball
+    Vec2 contact[2];  ///< where it touches face a and face b
+    Vec2 behind[2];   ///< the contacts, moved beyond the faces
+    Vec2 corner;      ///< where the faces meet, moved so, too
+};
+
+/// Empty where no such ball touches both faces next to the edge.
+[[nodiscard]] std::optional<Wedge> wedge_of(const Segment& segment, double radius);
+
+/// How a ball fits a body; the worst of what was found.
+enum class Fit : std::uint8_t {
+    good,
+    none,      ///< no ball of that radius touches both faces
+    off_face,  ///< it would touch a face where there is none any more
+    blocked,   ///< another face is in its way
+};
+struct Fitting {
+    Fit fit = Fit::good;
+    std::size_t face = 0;  ///< which, if off_face or blocked
+};
+/// Tries the ball at several places along the segment, away from its ends.
+[[nodiscard]] Fitting fitting_of(const Body& body, const Segment& segment, double radius);
+
+/// The wedge from parameter lo to hi as a solid: a prism or a surface of revolution.
+[[nodiscard]] Result<csg::Solid> solid_of(const Segment& segment, const Wedge& wedge,
+                                          const Form& form, double lo, double hi, SourceSpan span);
+
+/// How far the wedge has to be run on beyond an end, in parameters, so that all of it is past `surface`; at most `limit`.
+[[nodiscard]] double reach_past(const Segment& segment, const Wedge& wedge, std::size_t end,
+                                const Surface& surface, double limit);
+
+/// Largest distance of the section's points from the edge.
+[[nodiscard]] double extent_of(const Segment& segment, const Wedge& wedge);
+
+}  // namespace raymo::blends

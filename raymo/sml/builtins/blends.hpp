@@ -1,0 +1,19 @@
+// The arguments of blends, which the Booleans take, too.
+#pragma once
+
+#include "raymo/blends/blend.hpp"
+#include "raymo/sml/builtins/call.hpp"
+
+namespace raymo::sml {
+
+/// Where `radius kind? shape? near? where?` stand among a call's parameters: the radius at `radius`, the others from `others` on.
+struct BlendSlots {
+    std::size_t radius;
+    std::size_t others;
+};
+/// Takes them. False: one is wrong, and the error is reported.
+bool take_blend(Call& call, const BlendSlots& slots, blends::Form& form);
+/// What came of a blend, with a warning where no edge was found.
+bool give_blend(Call& call, const BlendSlots& slots, Result<blends::Blended> made, Value& out);
+
+}  // namespace raymo::sml
