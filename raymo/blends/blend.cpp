@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "raymo/blends/tube.hpp"
 #include "raymo/blends/vertex.hpp"
 
 namespace raymo::blends {
@@ -35,7 +36,15 @@ double largest_radius(const Body& body, const Segment& segment, double too_large
     return std::floor(lo / unit) * unit;
 }
 
-Failure too_large(const Body& body, const Segment& segment, const Fitting& fitting, double radius) {
+Failure does_not_fit(const Body& body, const Segment& segment, const Fitting& fitting,
+                     double radius) {
+    if (fitting.fit == Fit::touching) {
+        return fail(
+            ErrorCode::out_of_range,
+            fmt::format("{} and {} touch each other", body.name_of(body.faces()[segment.face_a]),
+                        body.name_of(body.faces()[segment.face_b])),
+            "move or resize one of them so that they cross at an angle");
+    }
     std::string message = fmt::format("a ball of radius {:g} does not fit between {} and {}",
                                       radius, body.name_of(body.faces()[segment.face_a]),
                                       body.name_of(body.faces()[segment.face_b]));
@@ -61,7 +70,7 @@ double distance_to(const Segment& segment, Vec3 p) {
     double least = Aabb::kInf;
     for (int i = 0; i <= kPlaces; ++i) {
         const double t = segment.lo + (segment.hi - segment.lo) * i / kPlaces;
-        least = std::min(least, norm(segment.edge.point(t) - p));
+        least = std::min(least, norm(segment.point(t) - p));
     }
     return least;
 }
@@ -69,7 +78,7 @@ double distance_to(const Segment& segment, Vec3 p) {
 void select(std::vector<Segment>& segments, const Form& form) {
     if (form.where) {
         std::erase_if(segments, [&](const Segment& s) {
-            return !is_inside(form.where, s.edge.point(s.middle()));
+            return !is_inside(form.where, s.point(s.middle()));
         });
     }
     if (form.near && !segments.empty()) {
@@ -119,19 +128,19 @@ Result<Blended> blend(const Body& body, csg::Solid sharp, bool within_operands,
     if (body.box().empty()) return Blended{std::move(sharp), 0};
     if (auto known = check_known(body, within_operands, form.radius); !known)
         return Failure(std::move(known).error());
-    Found found = find_segments(body, within_operands, form.radius);
+    std::vector<Segment> segments = find_segments(body, within_operands, form.radius);
     if (only) {
-        std::erase_if(found.segments,
+        std::erase_if(segments,
                       [&](const Segment& s) { return s.is_convex != (*only == Edges::convex); });
     }
-    select(found.segments, form);
+    select(segments, form);
 
     std::vector<Job> jobs;
-    for (Segment& segment : found.segments) {
+    for (Segment& segment : segments) {
         const Fitting fitting = fitting_of(body, segment, form.radius);
-        if (fitting.fit != Fit::good) return too_large(body, segment, fitting, form.radius);
+        if (fitting.fit != Fit::good) return does_not_fit(body, segment, fitting, form.radius);
         Job job;
-        job.wedge = *wedge_of(segment, form.radius);
+        job.extent = extent_of(body, segment, form.radius);
         job.segment = std::move(segment);
         jobs.push_back(std::move(job));
     }
@@ -141,8 +150,18 @@ Result<Blended> blend(const Body& body, csg::Solid sharp, bool within_operands,
         for (std::size_t end = 0; end < 2; ++end) plans[i][end] = plan_of(body, jobs, i, end);
     }
     for (std::size_t i = 0; i < jobs.size(); ++i) {
-        extend(body, jobs, i, plans[i]);
-        auto made = solid_of(jobs[i].segment, jobs[i].wedge, form, jobs[i].lo, jobs[i].hi, span);
+        extend(body, jobs, i, form.radius, plans[i]);
+        const Segment& segment = jobs[i].segment;
+        if (segment.space && form.profile != Profile::ball) {
+            return fail(ErrorCode::bad_argument,
+                        fmt::format("along the curve in which {} and {} meet there are only balls",
+                                    body.name_of(body.faces()[segment.face_a]),
+                                    body.name_of(body.faces()[segment.face_b])),
+                        "leave out `kind`");
+        }
+        auto made = segment.space
+                        ? tube_wedge(body, segment, form.radius, jobs[i].lo, jobs[i].hi, span)
+                        : solid_of(segment, form, jobs[i].lo, jobs[i].hi, span);
         if (!made) return Failure(std::move(made).error());
         const Face& face = body.faces()[jobs[i].segment.face_a];
         jobs[i].solid = painted(std::move(*made), body.leaves()[face.leaf].material, span);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <functional>
 #include <numbers>
 
 namespace raymo::blends {
@@ -25,12 +26,12 @@ public:
     Search(const Body& body, bool within_operands, double reach)
         : body_(body), within_operands_(within_operands), reach_(reach) {}
 
-    Found run() {
+    std::vector<Segment> run() {
         const auto& faces = body_.faces();
         for (std::size_t i = 0; i < faces.size(); ++i) {
             for (std::size_t k = i + 1; k < faces.size(); ++k) pair(i, k);
         }
-        return std::move(found_);
+        return std::move(segments_);
     }
 
 private:
@@ -44,34 +45,50 @@ private:
         if (!within_operands_ && p.operand == q.operand) return;
         const double margin = 0x1p-20 * reach_;
         const Aabb box = grown(body_.box(), margin);
-        if (overlap(overlap(grown(p.box, margin), grown(q.box, margin)), box).empty()) return;
+        const Aabb shared = overlap(overlap(grown(p.box, margin), grown(q.box, margin)), box);
+        if (shared.empty()) return;
         const Meeting meeting = meeting_of(body_.faces()[i].surface, body_.faces()[k].surface);
-        if (meeting.is_general && &p != &q) found_.general.emplace_back(i, k);
+        if (meeting.is_general) {
+            // And beyond both leaves, by what an edge may have to be run on.
+            for (const SpaceEdgePtr& edge :
+                 space_edges(body_.faces()[i].surface, body_.faces()[k].surface,
+                             grown(shared, 4.0 * reach_))) {
+                along_space(edge, i, k);
+            }
+        }
         for (const EdgeCurve& edge : meeting.edges) along(edge, i, k, box);
     }
 
-    /// Which sectors are solid; of natural sides.
+    /// Which sectors about a point are solid, by the two natural outward normals there.
+    [[nodiscard]] Sectors sectors(Vec3 at, Vec3 na, Vec3 nb, double step) const {
+        Sectors out = 0;
+        for (unsigned sector = 0; sector < 4; ++sector) {
+            const double sa = (sector & 2U) != 0 ? -1.0 : 1.0;
+            const double sb = (sector & 1U) != 0 ? -1.0 : 1.0;
+            const Vec3 w = na * sa + nb * sb;
+            // Along the bisector, as far from both as the step.
+            const double sine = std::fabs(dot(w, na)) / norm(w);
+            const Where where = body_.where(at + w * (step / (std::max(sine, kSmooth) * norm(w))));
+            if (where == Where::on) return kUnknownSectors;
+            if (where == Where::in) out = static_cast<Sectors>(out | (1U << sector));
+        }
+        return out;
+    }
     [[nodiscard]] Sectors sectors(const EdgeCurve& edge, double t) const {
-        const Vec2 na = edge.a.outward(edge.at);
-        const Vec2 nb = edge.b.outward(edge.at);
         double step = 0x1p-14 * reach_;
         for (const SectionCurve* c : {&edge.a, &edge.b}) {
             if (!c->is_line) step = std::min(step, 0x1p-14 * c->radius);
         }
         if (edge.is_circle) step = std::min(step, 0x1p-14 * edge.at.x);
-        Sectors out = 0;
-        for (unsigned sector = 0; sector < 4; ++sector) {
-            const double sa = (sector & 2U) != 0 ? -1.0 : 1.0;
-            const double sb = (sector & 1U) != 0 ? -1.0 : 1.0;
-            const Vec2 w = na * sa + nb * sb;
-            // Along the bisector, as far from both as the step.
-            const double sine = std::fabs(dot(w, na)) / norm(w);
-            const Vec2 p = edge.at + w * (step / (std::max(sine, kSmooth) * norm(w)));
-            const Where where = body_.where(edge.place(p, t));
-            if (where == Where::on) return kUnknownSectors;
-            if (where == Where::in) out = static_cast<Sectors>(out | (1U << sector));
-        }
-        return out;
+        return sectors(edge.point(t), edge.turn(edge.a.outward(edge.at), t),
+                       edge.turn(edge.b.outward(edge.at), t), step);
+    }
+    [[nodiscard]] Sectors sectors(const SpaceEdge& edge, std::size_t i, std::size_t k,
+                                  double t) const {
+        const Vec3 p = edge.point(t);
+        const double step = 0x1p-14 * std::min(reach_, edge.speed());
+        return sectors(p, body_.faces()[i].surface.normal(p), body_.faces()[k].surface.normal(p),
+                       step);
     }
 
     void along(const EdgeCurve& edge, std::size_t i, std::size_t k, const Aabb& box) {
@@ -119,7 +136,8 @@ private:
                 segment.is_closed = true;
                 segment.lo = 0.0;
                 segment.hi = kTurn;
-                if (orient(edge, stretches[0].sectors, i, k, segment)) keep(std::move(segment));
+                segment.edge = edge;
+                if (orient(stretches[0].sectors, i, k, segment)) keep(std::move(segment));
                 return;
             }
             if (stretches.front().sectors == stretches.back().sectors) {
@@ -132,7 +150,8 @@ private:
             Segment segment;
             segment.lo = stretches[s].lo;
             segment.hi = stretches[s].hi;
-            if (!orient(edge, stretches[s].sectors, i, k, segment)) continue;
+            segment.edge = edge;
+            if (!orient(stretches[s].sectors, i, k, segment)) continue;
             const bool ring = edge.is_circle;
             const Sectors before =
                 s > 0 ? stretches[s - 1].sectors : (ring ? stretches[m - 1].sectors : Sectors{0});
@@ -164,11 +183,10 @@ private:
     }
 
     /// Turns the sides of a stretch's curves. False when it is no edge to blend.
-    bool orient(const EdgeCurve& edge, Sectors sectors, std::size_t i, std::size_t k,
-                Segment& segment) const {
+    bool orient(Sectors sectors, std::size_t i, std::size_t k, Segment& segment) const {
         if (sectors == kUnknownSectors) return false;
         // Another face in the same surface may be the one that bounds the solid here.
-        const Vec3 middle = edge.point(segment.middle());
+        const Vec3 middle = segment.point(segment.middle());
         if (!body_.is_on(body_.faces()[i], middle) || !body_.is_on(body_.faces()[k], middle))
             return false;
         const int solid = std::popcount(static_cast<unsigned>(sectors));
@@ -176,7 +194,6 @@ private:
         segment.is_convex = solid == 1;
         const unsigned odd = segment.is_convex ? sectors : (~sectors & 0xfU);
         const auto sector = static_cast<unsigned>(std::countr_zero(odd));
-        segment.edge = edge;
         segment.face_a = i;
         segment.face_b = k;
         // The odd sector is the inner one of a convex edge, the outer one of a concave edge.
@@ -189,10 +206,10 @@ private:
     void set_end(Segment& segment, std::size_t which, double at, Sectors beyond, double tiny) {
         End& end = segment.ends[which];
         end.at = at;
-        end.point = segment.edge.point(at);
+        end.point = segment.point(at);
         for (const Mark& mark : marks_) {
             double d = std::fabs(mark.at - at);
-            if (segment.edge.is_circle) d = std::min(d, std::fabs(d - kTurn));
+            if (!segment.space && segment.edge.is_circle) d = std::min(d, std::fabs(d - kTurn));
             if (d <= 4.0 * tiny) end.faces.push_back(mark.face);
         }
         if (beyond == kUnknownSectors) {
@@ -212,34 +229,114 @@ private:
         }
     }
 
+    /// The outward normal of a face by the turned side.
+    [[nodiscard]] Vec3 outward(const Segment& s, std::size_t which, Vec3 at) const {
+        const Surface& surface = body_.faces()[which == 0 ? s.face_a : s.face_b].surface;
+        return surface.normal(at) * (which == 0 ? s.edge.a : s.edge.b).side;
+    }
+
     /// Unless there is one already: of faces that lie in the same surface.
     void keep(Segment segment) {
-        const Vec3 here = segment.edge.point(segment.middle());
-        for (const Segment& other : found_.segments) {
-            if (other.is_convex != segment.is_convex ||
-                other.edge.is_circle != segment.edge.is_circle)
-                continue;
-            const Vec3 there = other.edge.point(other.middle());
-            if (!(norm(here - there) <= 0x1p-30 * (reach_ + norm(here)))) continue;
-            const Vec3 n =
-                segment.edge.turn(segment.edge.a.outward(segment.edge.at), segment.middle());
-            const Vec3 na = other.edge.turn(other.edge.a.outward(other.edge.at), other.middle());
-            const Vec3 nb = other.edge.turn(other.edge.b.outward(other.edge.at), other.middle());
-            if (norm(n - na) < kSmooth || norm(n - nb) < kSmooth) return;
+        const Vec3 here = segment.point(segment.middle());
+        const Vec3 n = outward(segment, 0, here);
+        for (const Segment& other : segments_) {
+            if (other.is_convex != segment.is_convex || !other.space != !segment.space) continue;
+            // A curve in space has its middle anywhere, if it is closed.
+            const double reach = segment.space ? segment.speed() : 0x1p-30 * (reach_ + norm(here));
+            if (!(distance_to(other, here) <= reach)) continue;
+            if (norm(n - outward(other, 0, here)) < kSmooth ||
+                norm(n - outward(other, 1, here)) < kSmooth) {
+                return;
+            }
         }
-        found_.segments.push_back(std::move(segment));
+        segments_.push_back(std::move(segment));
+    }
+    static double distance_to(const Segment& segment, Vec3 p) {
+        if (!segment.space || !segment.is_closed) return norm(segment.point(segment.middle()) - p);
+        double least = Aabb::kInf;
+        for (double t = 0.0; t < segment.hi; t += 1.0)
+            least = std::min(least, norm(segment.point(t) - p));
+        return least;
+    }
+
+    /// Stretches of a curve in space: between its nodes nothing begins and ends unseen but what is shorter than a step.
+    void along_space(const SpaceEdgePtr& edge, std::size_t i, std::size_t k) {
+        const auto n = static_cast<std::size_t>(edge->last());
+        std::vector<Sectors> at(n);
+        for (std::size_t s = 0; s < n; ++s) {
+            at[s] = sectors(*edge, i, k, static_cast<double>(s) + 0.5);
+        }
+        const auto change = std::adjacent_find(at.begin(), at.end(), std::not_equal_to<>());
+        if (change == at.end()) {
+            Segment segment;
+            segment.space = edge;
+            segment.is_closed = edge->is_closed();
+            segment.hi = edge->last();
+            // An open curve ends where it leaves the box of the body; there is nothing there.
+            if (edge->is_closed() && orient(at[0], i, k, segment)) keep(std::move(segment));
+            return;
+        }
+        // Closed ones are begun at a change.
+        const std::size_t first =
+            edge->is_closed() ? static_cast<std::size_t>(change - at.begin()) + 1 : 0;
+        std::size_t from = 0;
+        while (from < n) {
+            std::size_t to = from + 1;
+            while (to < n && at[(first + to) % n] == at[(first + from) % n]) ++to;
+            const Sectors now = at[(first + from) % n];
+            Segment segment;
+            segment.space = edge;
+            const bool open = !edge->is_closed();
+            const Sectors before = open && from == 0 ? Sectors{0} : at[(first + from + n - 1) % n];
+            const Sectors after = open && to == n ? Sectors{0} : at[(first + to) % n];
+            const auto base = static_cast<double>(first);
+            segment.lo = open && from == 0
+                             ? 0.0
+                             : between(*edge, i, k, base + static_cast<double>(from) + 0.5,
+                                       base + static_cast<double>(from) - 0.5, now);
+            segment.hi = open && to == n
+                             ? edge->last()
+                             : between(*edge, i, k, base + static_cast<double>(to) - 0.5,
+                                       base + static_cast<double>(to) + 0.5, now);
+            if (orient(now, i, k, segment)) {
+                marks_.clear();
+                for (std::size_t f = 0; f < body_.faces().size(); ++f) {
+                    if (f == i || f == k) continue;
+                    for (const double end : {segment.lo, segment.hi}) {
+                        const Vec3 p = edge->point(end);
+                        const double d = std::fabs(body_.faces()[f].surface.distance(p));
+                        if (d <= 0x1p-24 * edge->speed()) marks_.push_back({end, f});
+                    }
+                }
+                set_end(segment, 0, segment.lo, before, 0x1p-10);
+                set_end(segment, 1, segment.hi, after, 0x1p-10);
+                keep(std::move(segment));
+            }
+            from = to;
+        }
+    }
+    /// Where the sectors, which are `now` at `inner`, cease to be so on the way to `outer`.
+    double between(const SpaceEdge& edge, std::size_t i, std::size_t k, double inner, double outer,
+                   Sectors now) const {
+        for (int step = 0; step < 40; ++step) {
+            const double middle = 0.5 * (inner + outer);
+            (sectors(edge, i, k, middle) == now ? inner : outer) = middle;
+        }
+        return inner;
     }
 
     const Body& body_;
     bool within_operands_;
     double reach_;
     std::vector<Mark> marks_;
-    Found found_;
+    std::vector<Segment> segments_;
 };
 
 }  // namespace
 
-Found find_segments(const Body& body, bool within_operands, double reach) {
+double Segment::period() const { return space ? space->last() : kTurn; }
+
+std::vector<Segment> find_segments(const Body& body, bool within_operands, double reach) {
     return Search(body, within_operands, reach).run();
 }
 

@@ -6,6 +6,7 @@
 #include "raymo/blends/blend.hpp"
 #include "raymo/blends/body.hpp"
 #include "raymo/blends/edge.hpp"
+#include "raymo/blends/space_edge.hpp"
 
 namespace raymo::blends {
 
@@ -22,29 +23,35 @@ struct End {
     Vec3 point;
 };
 
-/// A stretch of an edge along which it is convex or concave all the way. The sides of edge.a and edge.b are turned so that
-/// the solid of a convex edge is where both distances are negative, and the empty space at a concave one where both are positive.
+/// A stretch of an edge along which it is convex or concave all the way. The sides of both faces are turned so that the solid
+/// of a convex edge is where both distances are negative, and the empty space at a concave one where both are positive.
 struct Segment {
-    EdgeCurve edge;
+    EdgeCurve edge;      ///< unless `space` is set; of that only the sides count then
+    SpaceEdgePtr space;  ///< a curve that is neither a line nor a circle
     std::size_t face_a = 0, face_b = 0;
     bool is_convex = true;
-    bool is_closed = false;  ///< a whole circle
+    bool is_closed = false;  ///< runs back into itself
     double lo = 0.0, hi = 0.0;
     End ends[2];  ///< unless closed
+
+    [[nodiscard]] Vec3 point(double t) const { return space ? space->point(t) : edge.point(t); }
+    /// Unit; the way in which the parameter grows.
+    [[nodiscard]] Vec3 tangent(double t) const {
+        return space ? space->tangent(t) : edge.tangent(t);
+    }
+    /// Length of a parameter's step of 1.
+    [[nodiscard]] double speed() const { return space ? space->speed() : edge.speed(); }
+    /// The parameter at which a closed curve has come round.
+    [[nodiscard]] double period() const;
 
     /// The sign of the distances from both faces to the centre of the ball.
     [[nodiscard]] double sign() const { return is_convex ? -1.0 : 1.0; }
     [[nodiscard]] double middle() const { return 0.5 * (lo + hi); }
 };
 
-/// What a search for edges found.
-struct Found {
-    std::vector<Segment> segments;
-    /// Pairs of faces that may meet in curves other than lines and circles.
-    std::vector<std::pair<std::size_t, std::size_t>> general;
-};
 /// All stretches between faces of different operands, or of all faces. `reach`: the size of what is to be blended, for how close
 /// to an edge its sectors are looked at. The box of the body must be bounded.
-[[nodiscard]] Found find_segments(const Body& body, bool within_operands, double reach);
+[[nodiscard]] std::vector<Segment> find_segments(const Body& body, bool within_operands,
+                                                 double reach);
 
 }  // namespace raymo::blends

@@ -43,8 +43,8 @@ std::optional<std::size_t> job_of(const Body& body, const std::vector<Job>& jobs
         const Segment& s = jobs[i].segment;
         if (i == job || s.is_closed || s.is_convex != jobs[job].segment.is_convex) continue;
         for (const End& end : s.ends) {
-            if (is_same_place(end.point, at, jobs[job].wedge.radius) &&
-                has_face(body, s, face, at) && has_face(body, s, other, at)) {
+            if (is_same_place(end.point, at, jobs[job].extent) && has_face(body, s, face, at) &&
+                has_face(body, s, other, at)) {
                 return i;
             }
         }
@@ -52,7 +52,25 @@ std::optional<std::size_t> job_of(const Body& body, const std::vector<Job>& jobs
     return std::nullopt;
 }
 
-/// A solid with a surface as its boundary near `at`: on its inner side, and as large as `reach` there.
+/// The part of `wedge` on the segment's own side of a face, and what of `more` there is beyond it.
+Result<csg::Solid> on_own_side(csg::Solid wedge, const Segment& segment, std::size_t end,
+                               const Surface& surface, double reach, const csg::Solid& more,
+                               SourceSpan span) {
+    const Vec3 at = segment.ends[end].point;
+    auto inner = inner_side(surface, at, reach, span);
+    if (!inner) return inner;
+    const Vec3 forth = segment.tangent(segment.ends[end].at) * (end == 0 ? 1.0 : -1.0);
+    const bool is_inner = dot(surface.normal(at), forth) < 0.0;
+    if (is_inner) {
+        csg::Solid kept = more ? csg::boolean(csg::Op::unite, {*inner, more}, span) : *inner;
+        return csg::boolean(csg::Op::intersection, {std::move(wedge), std::move(kept)}, span);
+    }
+    csg::Solid lost = more ? csg::boolean(csg::Op::difference, {*inner, more}, span) : *inner;
+    return csg::boolean(csg::Op::difference, {std::move(wedge), std::move(lost)}, span);
+}
+
+}  // namespace
+
 Result<csg::Solid> inner_side(const Surface& s, Vec3 at, double reach, SourceSpan span) {
     const auto placed = [&](Result<csg::Solid> solid, Vec3 origin) {
         if (!solid) return solid;
@@ -86,25 +104,6 @@ Result<csg::Solid> inner_side(const Surface& s, Vec3 at, double reach, SourceSpa
     return fail(ErrorCode::evaluation, "unknown surface");
 }
 
-/// The part of `wedge` on the segment's own side of a face, and what of `more` there is beyond it.
-Result<csg::Solid> on_own_side(csg::Solid wedge, const Segment& segment, std::size_t end,
-                               const Surface& surface, double reach, const csg::Solid& more,
-                               SourceSpan span) {
-    const Vec3 at = segment.ends[end].point;
-    auto inner = inner_side(surface, at, reach, span);
-    if (!inner) return inner;
-    const Vec3 forth = segment.edge.tangent(segment.ends[end].at) * (end == 0 ? 1.0 : -1.0);
-    const bool is_inner = dot(surface.normal(at), forth) < 0.0;
-    if (is_inner) {
-        csg::Solid kept = more ? csg::boolean(csg::Op::unite, {*inner, more}, span) : *inner;
-        return csg::boolean(csg::Op::intersection, {std::move(wedge), std::move(kept)}, span);
-    }
-    csg::Solid lost = more ? csg::boolean(csg::Op::difference, {*inner, more}, span) : *inner;
-    return csg::boolean(csg::Op::difference, {std::move(wedge), std::move(lost)}, span);
-}
-
-}  // namespace
-
 EndPlan plan_of(const Body& body, const std::vector<Job>& jobs, std::size_t job, std::size_t end) {
     const Segment& s = jobs[job].segment;
     const End& at = s.ends[end];
@@ -112,7 +111,7 @@ EndPlan plan_of(const Body& body, const std::vector<Job>& jobs, std::size_t job,
         // A face that continues a or b without an edge ends the wedge; where the tube goes on it has a wedge of its own.
         for (const std::size_t f : at.faces) {
             const Surface& surface = body.faces()[f].surface;
-            if (std::fabs(dot(surface.normal(at.point), s.edge.tangent(at.at))) > kSmooth)
+            if (std::fabs(dot(surface.normal(at.point), s.tangent(at.at))) > kSmooth)
                 return {Ending::run_on, f, std::nullopt};
         }
         return {Ending::flat, 0, std::nullopt};
@@ -121,7 +120,7 @@ EndPlan plan_of(const Body& body, const std::vector<Job>& jobs, std::size_t job,
     for (const std::size_t f : at.faces) {
         const Surface& surface = body.faces()[f].surface;
         const Vec3 n = surface.normal(at.point);
-        if (std::fabs(dot(n, s.edge.tangent(at.at))) <= kSmooth) continue;
+        if (std::fabs(dot(n, s.tangent(at.at))) <= kSmooth) continue;
         if (plan.ending == Ending::flat) plan = {Ending::cut, f, std::nullopt};
         if (at.beyond != kOnlyA && at.beyond != kOnlyB) continue;
         const std::size_t stays = at.beyond == kOnlyA ? s.face_a : s.face_b;
@@ -132,37 +131,37 @@ EndPlan plan_of(const Body& body, const std::vector<Job>& jobs, std::size_t job,
     return plan;
 }
 
-void extend(const Body& body, std::vector<Job>& jobs, std::size_t job,
+void extend(const Body& body, std::vector<Job>& jobs, std::size_t job, double radius,
             const std::array<EndPlan, 2>& plans) {
     Job& self = jobs[job];
     const Segment& s = self.segment;
     self.lo = s.lo;
     self.hi = s.hi;
     if (s.is_closed) return;
-    const double extent = extent_of(s, self.wedge);
+    const double extent = self.extent;
     for (std::size_t end = 0; end < 2; ++end) {
         const EndPlan& plan = plans[end];
         if (plan.ending == Ending::flat) continue;
-        const double limit = kLongestRun * extent / s.edge.speed();
-        double run = reach_past(s, self.wedge, end, body.faces()[plan.face].surface, limit);
-        run += 0x1p-10 * extent / s.edge.speed();
+        const double limit = kLongestRun * extent / s.speed();
+        double run = reach_past(body, s, radius, end, body.faces()[plan.face].surface, limit);
+        run += 0x1p-10 * extent / s.speed();
         if (plan.next) {
             // Along both edges the mitre's tip is as far away as half the angle between them says.
             const Job& next = jobs[*plan.next];
             const std::size_t there =
                 is_same_place(next.segment.ends[0].point, s.ends[end].point, extent) ? 0 : 1;
-            const Vec3 mine = s.edge.tangent(s.ends[end].at) * (end == 0 ? 1.0 : -1.0);
+            const Vec3 mine = s.tangent(s.ends[end].at) * (end == 0 ? 1.0 : -1.0);
             const Vec3 its =
-                next.segment.edge.tangent(next.segment.ends[there].at) * (there == 0 ? 1.0 : -1.0);
+                next.segment.tangent(next.segment.ends[there].at) * (there == 0 ? 1.0 : -1.0);
             const double half = 0.5 * std::acos(std::clamp(dot(mine, its), -1.0, 1.0));
-            const double width = std::max(extent, extent_of(next.segment, next.wedge));
-            run += 2.0 * width / std::max(std::tan(half), 1.0 / kLongestRun) / s.edge.speed();
+            const double width = std::max(extent, next.extent);
+            run += 2.0 * width / std::max(std::tan(half), 1.0 / kLongestRun) / s.speed();
         }
         run = std::min(run, limit);
         (end == 0 ? self.lo : self.hi) += end == 0 ? -run : run;
     }
-    if (s.edge.is_circle) {
-        const double excess = (self.hi - self.lo) - 2.0 * std::numbers::pi;
+    if (s.space ? s.space->is_closed() : s.edge.is_circle) {
+        const double excess = (self.hi - self.lo) - s.period();
         if (excess > 0.0) {
             self.lo += 0.5 * excess;
             self.hi -= 0.5 * excess;
@@ -175,8 +174,8 @@ Result<csg::Solid> cut_at_ends(const Body& body, const std::vector<Job>& jobs, s
     const Job& self = jobs[job];
     Result<csg::Solid> solid = self.solid;
     if (self.segment.is_closed) return solid;
-    const double reach = (self.hi - self.lo) * self.segment.edge.speed() +
-                         2.0 * kLongestRun * extent_of(self.segment, self.wedge);
+    const double reach =
+        (self.hi - self.lo) * self.segment.speed() + 2.0 * kLongestRun * self.extent;
     for (std::size_t end = 0; end < 2; ++end) {
         const EndPlan& plan = plans[end];
         if (plan.ending != Ending::cut && plan.ending != Ending::mitre) continue;

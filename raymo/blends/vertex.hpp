@@ -11,7 +11,7 @@ namespace raymo::blends {
 /// A segment that is to be blended.
 struct Job {
     Segment segment;
-    Wedge wedge;
+    double extent = 0.0;        ///< of the wedge, across the edge
     double lo = 0.0, hi = 0.0;  ///< the wedge, run on beyond the ends as far as it takes
     csg::Solid solid;           ///< the wedge so far
 };
@@ -31,8 +31,12 @@ struct EndPlan {
 [[nodiscard]] EndPlan plan_of(const Body& body, const std::vector<Job>& jobs, std::size_t job,
                               std::size_t end);
 
+/// A solid with a surface as its boundary near `at`: on its inner side, and as large as `reach` there.
+[[nodiscard]] Result<csg::Solid> inner_side(const Surface& s, Vec3 at, double reach,
+                                            SourceSpan span);
+
 /// Runs the wedge of a job on as its plans ask for.
-void extend(const Body& body, std::vector<Job>& jobs, std::size_t job,
+void extend(const Body& body, std::vector<Job>& jobs, std::size_t job, double radius,
             const std::array<EndPlan, 2>& plans);
 
 /// The wedge of a job, cut at its ends. Jobs' own solids must have been made.

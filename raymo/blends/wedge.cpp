@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "raymo/blends/make.hpp"
+#include "raymo/core/assert.hpp"
 
 namespace raymo::blends {
 namespace {
@@ -15,6 +16,8 @@ using solids::Where;
 constexpr double kBeyond = 0x1p-20;
 /// A face is in a ball's way when it comes nearer to its centre than the radius by more than this part of it.
 constexpr double kPress = 0x1p-20;
+/// Faces whose normals' sine is smaller somewhere along a curve touch there, and what a ball does is no matter of rolling.
+constexpr double kTouching = 0x1p-6;
 constexpr double kDegrees = 180.0 / std::numbers::pi;
 
 void append_line(curves::Curve& curve, Vec2 a, Vec2 b) {
@@ -55,12 +58,11 @@ curves::Outline outline_of(const Segment& segment, const Wedge& w, const Form& f
 }
 
 /// What is solid next to a contact: the ball may touch a face only where it bounds the body.
-Fitting at_contact(const Body& body, const Segment& segment, const Wedge& w, double t) {
+Fitting at_contact(const Body& body, const Segment& segment, const Touch& touch, double radius) {
     for (std::size_t i = 0; i < 2; ++i) {
-        const SectionCurve& side = i == 0 ? segment.edge.a : segment.edge.b;
-        const Vec2 step = side.outward(w.contact[i]) * (0x1p-14 * w.radius);
-        const Where inner = body.where(segment.edge.place(w.contact[i] - step, t));
-        const Where outer = body.where(segment.edge.place(w.contact[i] + step, t));
+        const Vec3 step = touch.outward[i] * (0x1p-14 * radius);
+        const Where inner = body.where(touch.contact[i] - step);
+        const Where outer = body.where(touch.contact[i] + step);
         if (inner == Where::out || outer == Where::in) {
             return {Fit::off_face, i == 0 ? segment.face_a : segment.face_b};
         }
@@ -69,17 +71,16 @@ Fitting at_contact(const Body& body, const Segment& segment, const Wedge& w, dou
 }
 
 /// Whether another face comes into the ball.
-Fitting around(const Body& body, const Segment& segment, const Wedge& w, double t) {
-    const Vec3 c = segment.edge.place(w.centre, t);
+Fitting around(const Body& body, const Segment& segment, Vec3 c, double radius) {
     for (std::size_t f = 0; f < body.faces().size(); ++f) {
         if (f == segment.face_a || f == segment.face_b) continue;
         const Surface& surface = body.faces()[f].surface;
         const double d = surface.distance(c);
-        if (!(std::fabs(d) < (1.0 - kPress) * w.radius)) continue;
+        if (!(std::fabs(d) < (1.0 - kPress) * radius)) continue;
         const Vec3 n = surface.normal(c);
         const Vec3 foot = c - n * d;
         if (!body.is_on(body.faces()[f], foot)) continue;
-        const Vec3 step = n * (0x1p-14 * w.radius);
+        const Vec3 step = n * (0x1p-14 * radius);
         const Where a = body.where(foot - step);
         const Where b = body.where(foot + step);
         if (a != b && a != Where::on && b != Where::on) return {Fit::blocked, f};
@@ -111,39 +112,108 @@ std::optional<Wedge> wedge_of(const Segment& segment, double radius) {
     return w;
 }
 
-double extent_of(const Segment& segment, const Wedge& w) {
+std::optional<Touch> touch_at(const Body& body, const Segment& segment, double radius, double t) {
+    const double s = segment.sign();
+    Touch touch;
+    if (!segment.space) {
+        const auto w = wedge_of(segment, radius);
+        if (!w) return std::nullopt;
+        touch.centre = segment.edge.place(w->centre, t);
+        for (std::size_t i = 0; i < 2; ++i) {
+            const SectionCurve& side = i == 0 ? segment.edge.a : segment.edge.b;
+            touch.contact[i] = segment.edge.place(w->contact[i], t);
+            touch.outward[i] = segment.edge.turn(side.outward(w->contact[i]), t);
+        }
+        return touch;
+    }
+    const Surface& a = body.faces()[segment.face_a].surface;
+    const Surface& b = body.faces()[segment.face_b].surface;
+    const double side_a = segment.edge.a.side;
+    const double side_b = segment.edge.b.side;
+    const Vec3 at = segment.point(t);
+    const Vec3 na = a.normal(at) * side_a;
+    const Vec3 nb = b.normal(at) * side_b;
+    // Between planes it would be here.
+    touch.centre = at + (na + nb) * (s * radius / (1.0 + dot(na, nb)));
+    const double reach = norm(touch.centre - at);
+    if (!to_distances(a, side_a * s * radius, b, side_b * s * radius, segment.tangent(t),
+                      touch.centre)) {
+        return std::nullopt;
+    }
+    // Newton's method may find another corner of the same two surfaces.
+    if (!(norm(touch.centre - at) < 4.0 * reach)) return std::nullopt;
+    for (std::size_t i = 0; i < 2; ++i) {
+        const Vec3 n = (i == 0 ? a : b).normal(touch.centre) * (i == 0 ? side_a : side_b);
+        touch.contact[i] = touch.centre - n * (s * radius);
+        touch.outward[i] = (i == 0 ? a : b).normal(touch.contact[i]) * (i == 0 ? side_a : side_b);
+        // Past a surface's centre or axis its normal turns over.
+        if (!(dot(n, touch.outward[i]) > 0.0)) return std::nullopt;
+    }
+    return touch;
+}
+
+double extent_of(const Body& body, const Segment& segment, double radius) {
     double extent = 0.0;
-    for (const Vec2 p : {w.contact[0], w.contact[1], w.corner, w.centre}) {
-        extent = std::max(extent, norm(p - segment.edge.at));
+    constexpr int kPlaces = 64;
+    for (int i = 0; i <= kPlaces; ++i) {
+        const double t = segment.lo + (segment.hi - segment.lo) * i / kPlaces;
+        const auto touch = touch_at(body, segment, radius, t);
+        if (!touch) continue;
+        const Vec3 at = segment.point(t);
+        for (const Vec3 p : {touch->contact[0], touch->contact[1], touch->centre}) {
+            extent = std::max(extent, norm(p - at));
+        }
+        if (!segment.space) break;
     }
     return extent;
 }
 
 Fitting fitting_of(const Body& body, const Segment& segment, double radius) {
-    const auto w = wedge_of(segment, radius);
-    if (!w) return {Fit::none, 0};
+    if (segment.space) {
+        if (!segment.space->is_smooth()) return {Fit::touching, 0};
+        const Surface& a = body.faces()[segment.face_a].surface;
+        const Surface& b = body.faces()[segment.face_b].surface;
+        for (double t = std::ceil(segment.lo); t <= segment.hi; t += 1.0) {
+            const Vec3 p = segment.point(t);
+            if (norm(cross(a.normal(p), b.normal(p))) < kTouching) return {Fit::touching, 0};
+        }
+    }
     double lo = segment.lo;
     double hi = segment.hi;
     if (!segment.is_closed) {
         // At its ends it is another's concern.
-        const double margin = extent_of(segment, *w) / segment.edge.speed();
+        const double margin = extent_of(body, segment, radius) / segment.speed();
         lo = std::min(lo + margin, segment.middle());
         hi = std::max(hi - margin, segment.middle());
     }
     constexpr int kPlaces = 16;
+    Vec3 last;
     for (int i = 0; i < kPlaces; ++i) {
         const double t = lo + (hi - lo) * (i + 0.5) / kPlaces;
-        if (const Fitting f = at_contact(body, segment, *w, t); f.fit != Fit::good) return f;
-        if (const Fitting f = around(body, segment, *w, t); f.fit != Fit::good) return f;
+        const auto touch = touch_at(body, segment, radius, t);
+        if (!touch) return {Fit::none, 0};
+        // A ball larger than its path's curvature allows runs back.
+        if (i > 0 && dot(touch->centre - last, segment.tangent(t)) < 0.0 && segment.space) {
+            const auto before = touch_at(body, segment, radius, t - 0x1p-6 * (hi - lo));
+            if (!before || dot(touch->centre - before->centre, segment.tangent(t)) < 0.0)
+                return {Fit::none, 0};
+        }
+        last = touch->centre;
+        if (const Fitting f = at_contact(body, segment, *touch, radius); f.fit != Fit::good)
+            return f;
+        if (const Fitting f = around(body, segment, touch->centre, radius); f.fit != Fit::good)
+            return f;
         if (lo == hi) break;
     }
     return {};
 }
 
-Result<csg::Solid> solid_of(const Segment& segment, const Wedge& wedge, const Form& form, double lo,
-                            double hi, SourceSpan span) {
+Result<csg::Solid> solid_of(const Segment& segment, const Form& form, double lo, double hi,
+                            SourceSpan span) {
     const EdgeCurve& e = segment.edge;
-    auto outline = std::make_shared<const curves::Outline>(outline_of(segment, wedge, form));
+    const auto wedge = wedge_of(segment, form.radius);
+    RAYMO_ASSERT(wedge.has_value());
+    auto outline = std::make_shared<const curves::Outline>(outline_of(segment, *wedge, form));
     Affine map;
     Vec3 u = e.across;
     Vec3 v = e.up;
@@ -165,13 +235,18 @@ Result<csg::Solid> solid_of(const Segment& segment, const Wedge& wedge, const Fo
     return csg::transform(std::move(*solid), map, span);
 }
 
-double reach_past(const Segment& segment, const Wedge& wedge, std::size_t end,
+double reach_past(const Body& body, const Segment& segment, double radius, std::size_t end,
                   const Surface& surface, double limit) {
-    const double sign = end == 0 ? -1.0 : 1.0;
     const double at = segment.ends[end].at;
+    // Along a curve in space nothing tells but trying.
+    if (segment.space)
+        return std::min(limit, 2.0 * extent_of(body, segment, radius) / segment.speed());
+    const auto wedge = wedge_of(segment, radius);
+    RAYMO_ASSERT(wedge.has_value());
+    const double sign = end == 0 ? -1.0 : 1.0;
     double reach = 0.0;
     std::vector<double> crossings;
-    for (const Vec2 p : {wedge.contact[0], wedge.contact[1], wedge.corner, wedge.centre}) {
+    for (const Vec2 p : {wedge->contact[0], wedge->contact[1], wedge->corner, wedge->centre}) {
         crossings.clear();
         const double lo = sign > 0.0 ? at : at - limit;
         append_crossings(segment.edge, p, surface, lo, lo + limit, crossings);

@@ -20,12 +20,23 @@ struct Wedge {
 /// Empty where no such ball touches both faces next to the edge.
 [[nodiscard]] std::optional<Wedge> wedge_of(const Segment& segment, double radius);
 
+/// A ball that touches both faces of an edge, in space.
+struct Touch {
+    Vec3 centre;
+    Vec3 contact[2];
+    Vec3 outward[2];  ///< of the faces at their contacts, by the segment's sides
+};
+/// The ball whose centre is in the plane across the edge at a parameter.
+[[nodiscard]] std::optional<Touch> touch_at(const Body& body, const Segment& segment, double radius,
+                                            double t);
+
 /// How a ball fits a body; the worst of what was found.
 enum class Fit : std::uint8_t {
     good,
     none,      ///< no ball of that radius touches both faces
     off_face,  ///< it would touch a face where there is none any more
     blocked,   ///< another face is in its way
+    touching,  ///< the faces meet at too small an angle
 };
 struct Fitting {
     Fit fit = Fit::good;
@@ -34,15 +45,15 @@ struct Fitting {
 /// Tries the ball at several places along the segment, away from its ends.
 [[nodiscard]] Fitting fitting_of(const Body& body, const Segment& segment, double radius);
 
-/// The wedge from parameter lo to hi as a solid: a prism or a surface of revolution.
-[[nodiscard]] Result<csg::Solid> solid_of(const Segment& segment, const Wedge& wedge,
-                                          const Form& form, double lo, double hi, SourceSpan span);
+/// How far a ball that fits and its contacts are away from the edge, at most.
+[[nodiscard]] double extent_of(const Body& body, const Segment& segment, double radius);
 
-/// How far the wedge has to be run on beyond an end, in parameters, so that all of it is past `surface`; at most `limit`.
-[[nodiscard]] double reach_past(const Segment& segment, const Wedge& wedge, std::size_t end,
-                                const Surface& surface, double limit);
+/// The wedge of a straight or circular segment from parameter lo to hi: a prism or a surface of revolution.
+[[nodiscard]] Result<csg::Solid> solid_of(const Segment& segment, const Form& form, double lo,
+                                          double hi, SourceSpan span);
 
-/// Largest distance of the section's points from the edge.
-[[nodiscard]] double extent_of(const Segment& segment, const Wedge& wedge);
+/// How far a wedge has to be run on beyond an end, in parameters, so that all of it is past `surface`; at most `limit`.
+[[nodiscard]] double reach_past(const Body& body, const Segment& segment, double radius,
+                                std::size_t end, const Surface& surface, double limit);
 
 }  // namespace raymo::blends

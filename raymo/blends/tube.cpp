@@ -1,0 +1,292 @@
+#include "raymo/blends/tube.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <unordered_map>
+
+#include "raymo/blends/make.hpp"
+#include "raymo/blends/vertex.hpp"
+#include "raymo/curves/build_spline.hpp"
+
+namespace raymo::blends {
+namespace {
+
+using curves::Point;
+using curves::SplineSpan;
+
+/// How far a wedge reaches beyond the faces, as part of its radius.
+constexpr double kBeyond = 0x1p-20;
+/// A spline is not sure of itself next to its ends; what it does there fades to a quarter with every node.
+constexpr double kSpare = 16.0;
+
+Point<4> sphere_at(Vec3 p, double r) { return {p.x, p.y, p.z, r}; }
+
+/// The curve of a contact near t: where, and which way.
+struct Contact {
+    Vec3 point, normal;
+    Vec3 way;  ///< its derivative
+};
+std::optional<Contact> contact_at(const Body& body, const Segment& segment, double radius, double t,
+                                  std::size_t which) {
+    constexpr double kStep = 0x1p-6;
+    const auto touch = touch_at(body, segment, radius, t);
+    const auto before = touch_at(body, segment, radius, t - kStep);
+    const auto after = touch_at(body, segment, radius, t + kStep);
+    if (!touch || !before || !after) return std::nullopt;
+    return Contact{touch->contact[which], touch->outward[which],
+                   (after->contact[which] - before->contact[which]) * (0.5 / kStep)};
+}
+
+/// The sphere that holds both curves of contact, the first at t.
+struct EdgeSphere {
+    Vec3 centre;
+    double radius = 0.0;
+    Vec3 edge;            ///< the point of the edge there
+    double chord = 0.0;   ///< half the chord, h
+    double height = 0.0;  ///< of the chord's middle above the edge
+};
+std::optional<EdgeSphere> edge_sphere(const Body& body, const Segment& segment, double radius,
+                                      double t) {
+    const auto p = contact_at(body, segment, radius, t, 0);
+    if (!p) return std::nullopt;
+    double there = t;
+    for (int i = 0; i < 60; ++i) {
+        const auto q = contact_at(body, segment, radius, there, 1);
+        if (!q) return std::nullopt;
+        const Vec3 chord = q->point - p->point;
+        const double half = 0.5 * norm(chord);
+        const Vec3 to_edge = unit(p->normal + q->normal) * -segment.sign();
+        const Mat3 m{{unit(p->way), chord, to_edge}};
+        if (!is_invertible(m)) return std::nullopt;
+        const Vec3 from_p =
+            inverse(m) * Vec3{0.0, 0.5 * dot(chord, chord), 0.5 * dot(to_edge, chord) + half};
+        const Vec3 centre = p->point + from_p;
+        const double speed = norm(q->way);
+        const double off = dot(centre - q->point, q->way) / (speed * speed);
+        if (!std::isfinite(off)) return std::nullopt;
+        if (std::fabs(off) * speed <= 0x1p-40 * radius || i == 59) {
+            const Vec3 edge = segment.point(t);
+            return EdgeSphere{centre, norm(from_p), edge, half,
+                              norm(p->point + chord * 0.5 - edge)};
+        }
+        there += off;
+    }
+    return std::nullopt;
+}
+
+/// The spheres that take the wedge from the contacts to the edge, at each whole parameter.
+class EdgeSpheres {
+public:
+    EdgeSpheres(const Body& body, const Segment& segment, double radius)
+        : body_(body), segment_(segment), radius_(radius) {}
+
+    /// How many shrunk copies it takes from lo to hi, before the one about the edge; -1: not even that one.
+    [[nodiscard]] int copies(double lo, double hi) {
+        int most = -1;
+        for (double t = std::ceil(lo); t <= hi; t += 1.0) {
+            const auto& s = at(t);
+            if (!s || s->height <= kCovers * s->chord) continue;
+            int count = 0;
+            for (double f = shrink(*s); f * s->height > 2.0 * s->chord; f *= shrink(*s)) ++count;
+            most = std::max(most, count);
+        }
+        return most;
+    }
+    /// Copy number k.
+    [[nodiscard]] std::optional<Point<4>> copy(double t, int k) {
+        const auto& s = at(t);
+        if (!s) return std::nullopt;
+        const double f = std::pow(shrink(*s), k);
+        return sphere_at(s->edge + (s->centre - s->edge) * f, s->radius * f);
+    }
+    /// About the edge, as large as copy number k leaves it to be.
+    [[nodiscard]] std::optional<Point<4>> last(double t, int k) {
+        const auto& s = at(t);
+        if (!s) return std::nullopt;
+        return sphere_at(s->edge, std::pow(shrink(*s), k) * std::hypot(s->height, s->chord));
+    }
+
+private:
+    /// A copy reaches down to its height less two half chords; the next one begins a little higher.
+    static constexpr double kCovers = 1.8;
+    [[nodiscard]] static double shrink(const EdgeSphere& s) {
+        return std::max(1.0 - kCovers * s.chord / s.height, 0x1p-6);
+    }
+    const std::optional<EdgeSphere>& at(double t) {
+        const auto [place, is_new] = known_.try_emplace(t);
+        if (is_new) place->second = edge_sphere(body_, segment_, radius_, t);
+        return place->second;
+    }
+
+    const Body& body_;
+    const Segment& segment_;
+    double radius_;
+    std::unordered_map<double, std::optional<EdgeSphere>> known_;
+};
+
+/// The part of a cubic from u on, or up to u.
+SplineSpan<4> cut(const SplineSpan<4>& span, double u, bool from_u) {
+    SplineSpan<4> left = span;
+    SplineSpan<4> right = span;
+    SplineSpan<4> b = span;
+    for (std::size_t n = 1; n < 4; ++n) {
+        for (std::size_t i = 0; i + n < 4; ++i) {
+            for (std::size_t k = 0; k < 4; ++k) b[i][k] = (1.0 - u) * b[i][k] + u * b[i + 1][k];
+        }
+        left[n] = b[0];
+        right[3 - n] = b[3 - n];
+    }
+    return from_u ? right : left;
+}
+
+curves::PathSpan path_span(const SplineSpan<4>& s) {
+    curves::PathSpan out;
+    for (std::size_t i = 0; i < 4; ++i) {
+        out.x[i] = s[i][0];
+        out.y[i] = s[i][1];
+        out.z[i] = s[i][2];
+        out.r[i] = std::max(s[i][3], 0.0);
+    }
+    return out;
+}
+
+/// The spline through f(t) at whole t, from lo to hi, or all round.
+template <class F>
+Result<curves::PathPtr> path_through(const Segment& segment, double lo, double hi, F&& f) {
+    const double last = segment.space->last();
+    const bool ring = segment.is_closed;
+    const bool open = !segment.space->is_closed();
+    double first = ring ? 0.0 : std::floor(lo) - kSpare;
+    double end = ring ? last - 1.0 : std::ceil(hi) + kSpare;
+    if (open) {
+        first = std::max(first, 0.0);
+        end = std::min(end, last);
+        lo = std::max(lo, first);
+        hi = std::min(hi, end);
+    }
+    std::vector<Point<4>> points;
+    for (double t = first; t <= end; t += 1.0) {
+        const std::optional<Point<4>> p = f(t);
+        if (p) {
+            points.push_back(*p);
+        } else if (ring || (t >= lo && t <= hi)) {
+            return fail(ErrorCode::out_of_range,
+                        "no ball of this radius rolls along the whole edge",
+                        "take a smaller radius");
+        } else if (t < lo) {
+            // Beyond the ends it may be lost.
+            points.clear();
+            first = t + 1.0;
+        } else {
+            break;
+        }
+    }
+    lo = std::max(lo, first);
+    hi = std::min(hi, first + static_cast<double>(points.size()) - 1.0);
+    if (points.size() < 4 || !(lo < hi)) {
+        return fail(ErrorCode::out_of_range, "no ball of this radius rolls along the whole edge",
+                    "take a smaller radius");
+    }
+    curves::SplineForm form;
+    form.kind = curves::SplineKind::interpolate;
+    form.closed = ring;
+    auto spline = curves::spline<4>(points, form);
+    if (!spline) return Failure(std::move(spline).error());
+    curves::Path path;
+    path.closed = ring;
+    for (std::size_t i = 0; i < spline->spans.size(); ++i) {
+        SplineSpan<4> span = spline->spans[i];
+        if (!ring) {
+            const double from = first + static_cast<double>(i);
+            if (from + 1.0 <= lo || from >= hi) continue;
+            // The later cut first: it leaves the place of the earlier one.
+            const double top = std::min(hi - from, 1.0);
+            const double low = std::max(lo - from, 0.0);
+            if (top < 1.0) span = cut(span, top, false);
+            if (low > 0.0) span = cut(span, low / top, true);
+        }
+        path.spans.push_back(path_span(span));
+    }
+    return std::make_shared<const curves::Path>(std::move(path));
+}
+
+Result<csg::Solid> swept(Result<curves::PathPtr> path, SourceSpan span) {
+    if (!path) return Failure(std::move(path).error());
+    constexpr std::size_t kFlat = 1;
+    return make<solids::Sweep>({std::move(*path), kFlat}, span);
+}
+
+/// The surface at a distance from another.
+Surface offset(Surface s, double by) {
+    switch (s.kind) {
+        case SurfaceKind::plane:
+            s.point = s.point + s.axis * by;
+            break;
+        case SurfaceKind::sphere:
+        case SurfaceKind::cylinder:
+            s.radius += by;
+            break;
+        case SurfaceKind::cone:
+            s.point = s.point - s.axis * (by / s.sine);
+            break;
+        case SurfaceKind::torus:
+            s.tube += by;
+            break;
+    }
+    return s;
+}
+
+}  // namespace
+
+Result<csg::Solid> tube_wedge(const Body& body, const Segment& segment, double radius, double lo,
+                              double hi, SourceSpan span) {
+    EdgeSpheres spheres(body, segment, radius);
+    const int copies = spheres.copies(lo, hi);
+    std::vector<csg::Solid> parts;
+    for (int k = 0; k <= std::max(copies, 0); ++k) {
+        auto part = swept(
+            path_through(segment, lo, hi, [&](double t) { return spheres.copy(t, k); }), span);
+        if (!part) return part;
+        parts.push_back(std::move(*part));
+    }
+    if (copies >= 0) {
+        auto part = swept(
+            path_through(segment, lo, hi, [&](double t) { return spheres.last(t, copies + 1); }),
+            span);
+        if (!part) return part;
+        parts.push_back(std::move(*part));
+    }
+    const csg::Solid along_edge =
+        parts.size() == 1 ? parts[0] : csg::boolean(csg::Op::unite, std::move(parts), span);
+    // The tube is longer, so that its ends cut nothing.
+    auto tube = swept(path_through(segment, lo - 4.0, hi + 4.0,
+                                   [&](double t) -> std::optional<Point<4>> {
+                                       const auto touch = touch_at(body, segment, radius, t);
+                                       if (!touch) return std::nullopt;
+                                       return sphere_at(touch->centre, radius);
+                                   }),
+                      span);
+    if (!tube) return tube;
+    std::vector<csg::Solid> kept;
+    std::vector<csg::Solid> lost{*tube};
+    const Aabb box = csg::bounds(along_edge);
+    const double s = segment.sign();
+    for (std::size_t i = 0; i < 2; ++i) {
+        const Surface& surface = body.faces()[i == 0 ? segment.face_a : segment.face_b].surface;
+        const double side = (i == 0 ? segment.edge.a : segment.edge.b).side;
+        auto inner = inner_side(offset(surface, -s * side * kBeyond * radius), box.centre(),
+                                2.0 * norm(box.size()), span);
+        if (!inner) return inner;
+        // A round lies within the faces' own side, a fillet beyond it.
+        ((s < 0.0) == (side > 0.0) ? kept : lost).push_back(std::move(*inner));
+    }
+    kept.insert(kept.begin(), along_edge);
+    lost.insert(lost.begin(), kept.size() == 1
+                                  ? kept[0]
+                                  : csg::boolean(csg::Op::intersection, std::move(kept), span));
+    return csg::boolean(csg::Op::difference, std::move(lost), span);
+}
+
+}  // namespace raymo::blends
