@@ -97,8 +97,11 @@ SectionCurve section_beside(const EdgeCurve& e, const Surface& s) {
             return line({0.0, up}, up * z);
         case SurfaceKind::sphere:
             return circle({0.0, z}, s.radius);
-        case SurfaceKind::cylinder:
-            return line({1.0, 0.0}, s.radius);
+        case SurfaceKind::cylinder: {
+            SectionCurve wall = line({1.0, 0.0}, s.radius);
+            wall.round = s.radius;
+            return wall;
+        }
         case SurfaceKind::cone:
             return line({s.cosine, -up * s.sine}, -up * s.sine * z);
         case SurfaceKind::torus:

@@ -22,6 +22,8 @@ struct SectionCurve {
     Vec2 centre;
     double radius = 0.0;
     double side = 1.0;  ///< -1: the solid is where n.p > k, or beyond the circle
+    /// Of a surface that is round across the section (the wall of a cylinder beside its axis): its radius.
+    double round = 0.0;
 
     [[nodiscard]] double distance(Vec2 p) const;
     /// Unit; where the distance grows.

@@ -267,13 +267,12 @@ private:
             at[s] = sectors(*edge, i, k, static_cast<double>(s) + 0.5);
         }
         const auto change = std::adjacent_find(at.begin(), at.end(), std::not_equal_to<>());
-        if (change == at.end()) {
+        if (change == at.end() && edge->is_closed()) {
             Segment segment;
             segment.space = edge;
-            segment.is_closed = edge->is_closed();
+            segment.is_closed = true;
             segment.hi = edge->last();
-            // An open curve ends where it leaves the box of the body; there is nothing there.
-            if (edge->is_closed() && orient(at[0], i, k, segment)) keep(std::move(segment));
+            if (orient(at[0], i, k, segment)) keep(std::move(segment));
             return;
         }
         // Closed ones are begun at a change.

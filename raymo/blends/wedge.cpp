@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "raymo/blends/conic.hpp"
 #include "raymo/blends/make.hpp"
 #include "raymo/core/assert.hpp"
 
@@ -46,8 +47,7 @@ curves::Outline outline_of(const Segment& segment, const Wedge& w, const Form& f
             append_line(curve, w.contact[1], w.contact[0]);
             break;
         case Profile::conic:
-            curve.spans.push_back(conic_arc(w.contact[1], segment.edge.at, w.contact[0],
-                                            std::sqrt(0.5 * (1.0 - form.shape))));
+            append_conic(curve, segment, w, form.shape);
             break;
     }
     append_line(curve, w.contact[0], w.behind[0]);
