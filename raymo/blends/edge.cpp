@@ -106,6 +106,9 @@ SectionCurve section_beside(const EdgeCurve& e, const Surface& s) {
             return line({s.cosine, -up * s.sine}, -up * s.sine * z);
         case SurfaceKind::torus:
             return circle({s.radius, z}, s.tube);
+        case SurfaceKind::wall:
+        case SurfaceKind::turned:
+            break;
     }
     return {};
 }
@@ -180,6 +183,37 @@ void append_roots(const Arc& arc, const Surface& s, std::vector<double>& out) {
             return append_roots<8>(plus(curves::product(k, k), far, -4.0 * s.radius * s.radius),
                                    out);
         }
+        case SurfaceKind::wall:
+        case SurfaceKind::turned:
+            return;
+    }
+}
+
+/// Where a line or circle crosses a free-form surface: between places at which the distances have different signs.
+void append_free(const EdgeCurve& edge, Vec2 section, const Surface& surface, double lo, double hi,
+                 std::vector<double>& out) {
+    constexpr int kPlaces = 256;
+    if (edge.is_circle) {
+        lo = 0.0;
+        hi = 2.0 * std::numbers::pi;
+    }
+    const auto d = [&](double t) { return surface.distance(edge.place(section, t)); };
+    double from = lo;
+    double before = d(lo);
+    for (int i = 1; i <= kPlaces; ++i) {
+        const double to = lo + (hi - lo) * i / kPlaces;
+        const double after = d(to);
+        if ((before < 0.0) != (after < 0.0)) {
+            double inner = from;
+            double outer = to;
+            for (int k = 0; k < 60; ++k) {
+                const double middle = 0.5 * (inner + outer);
+                ((d(middle) < 0.0) == (before < 0.0) ? inner : outer) = middle;
+            }
+            out.push_back(0.5 * (inner + outer));
+        }
+        from = to;
+        before = after;
     }
 }
 
@@ -202,6 +236,10 @@ Vec3 EdgeCurve::tangent(double t) const {
 Meeting meeting_of(const Surface& a, const Surface& b) {
     Meeting meeting;
     EdgeCurve edge;
+    if (a.is_free() || b.is_free()) {
+        meeting.is_general = true;
+        return meeting;
+    }
     if (const auto axis = common_axis(a, b)) {
         edge.is_circle = true;
         edge.origin = axis->origin;
@@ -231,6 +269,7 @@ Meeting meeting_of(const Surface& a, const Surface& b) {
 
 void append_crossings(const EdgeCurve& edge, Vec2 section, const Surface& surface, double lo,
                       double hi, std::vector<double>& out) {
+    if (surface.is_free()) return append_free(edge, section, surface, lo, hi, out);
     std::vector<double> roots;
     Arc arc;
     const auto set = [&](Vec3 start, Vec3 first, Vec3 second) {

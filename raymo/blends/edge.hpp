@@ -42,6 +42,7 @@ struct Meeting {
 
 /// Parameters at which an edge, or any line or circle that runs along with it through `section`, meets a surface: within
 /// [lo, hi] on a line, in [0, 2 pi) on a circle. Each of them is found, those where they only touch, too; some more may be.
+/// Of free-form surfaces only those that are further apart than 1/256 of the range.
 void append_crossings(const EdgeCurve& edge, Vec2 section, const Surface& surface, double lo,
                       double hi, std::vector<double>& out);
 

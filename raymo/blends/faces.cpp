@@ -4,6 +4,7 @@
 // its two cross axes keep one length and all three stay at right angles, a sphere or a torus where all lengths are equal,
 // too. How near to that a map has to be follows from the roundings of the maps it was made of, each some units of the last
 // place: kShape allows for 2^12 of them, and a surface that differs so little differs by 2^-40 of its size.
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -86,6 +87,26 @@ public:
         s.tube = tube * across_;
         add(s, side, name);
     }
+    /// A run of the kernel's frame, with its left side solid if `left` > 0: swept along z, or turned about it.
+    void swept(std::vector<curves::Span2> spans, bool is_closed, double left, std::string_view name,
+               bool is_turned) {
+        const Mat3& m = leaf_.map.linear;
+        // Scaled to lengths of the body.
+        const Affine2 scale{.xx = across_, .yy = is_turned ? norm(m.column(2)) : across_};
+        for (curves::Span2& span : spans) span = curves::mapped(span, scale);
+        if (left < 0.0) {
+            std::reverse(spans.begin(), spans.end());
+            for (curves::Span2& span : spans) span = curves::reversed(span);
+        }
+        Surface s;
+        s.kind = is_turned ? SurfaceKind::turned : SurfaceKind::wall;
+        s.point = leaf_.map.offset;
+        s.axis = axis_;
+        s.across = unit(m.column(0));
+        s.up = unit(m.column(1));
+        s.run = std::make_shared<const Run>(std::move(spans), is_closed);
+        add(s, 1.0, name);
+    }
     void unknown(std::string_view why) { leaf_.unknown = why; }
     [[nodiscard]] bool is_round() const { return keeps_round(leaf_.map.linear); }
     [[nodiscard]] bool is_similar() const { return keeps_shape(leaf_.map.linear); }
@@ -103,7 +124,6 @@ private:
 };
 
 constexpr std::string_view kStretched = "it is stretched, so that its surface is none of those";
-constexpr std::string_view kFreeForm = "its wall is bounded by curves that are no lines or circles";
 
 /// What a span of a contour is.
 struct Shape {
@@ -158,11 +178,44 @@ Vec2 normal_of(const curves::Piece& piece, double left) {
     return Vec2{d.y, -d.x} * left;
 }
 
+/// The free-form pieces of a region, joined to smooth runs.
+void add_runs(const curves::Region& region, const std::vector<bool>& is_free, Faces& faces,
+              bool is_turned) {
+    const auto& pieces = region.pieces();
+    // Whether a piece goes on where the one before it ends.
+    const auto follows = [&](std::size_t i) {
+        const std::size_t before = pieces[i].previous;
+        return is_free[before] && pieces[before].next == i && !pieces[before].ends_in_corner;
+    };
+    std::vector<bool> done(pieces.size(), false);
+    const auto take = [&](std::size_t first) {
+        std::vector<curves::Span2> spans;
+        const double left = left_side(region, pieces[first]);
+        std::size_t i = first;
+        do {
+            done[i] = true;
+            spans.push_back(pieces[i]);
+            i = pieces[i].next;
+        } while (!done[i] && is_free[i] && follows(i));
+        const bool is_closed = i == first && follows(first);
+        if (left != 0.0) faces.swept(std::move(spans), is_closed, left, "wall", is_turned);
+    };
+    for (std::size_t i = 0; i < pieces.size(); ++i) {
+        if (is_free[i] && !done[i] && !follows(i)) take(i);
+    }
+    for (std::size_t i = 0; i < pieces.size(); ++i) {
+        if (is_free[i] && !done[i]) take(i);
+    }
+}
+
 void walls(const solids::ContourSweep& kernel, Faces& faces) {
     faces.plane({0, 0, -1}, {0, 0, -1}, "bottom");
     faces.plane({0, 0, 1}, {0, 0, 1}, "top");
     if (kernel.ratio() != 1.0) return faces.unknown("it is a conic sweep");
-    for (const curves::Piece& piece : kernel.region().pieces()) {
+    const auto& pieces = kernel.region().pieces();
+    std::vector<bool> is_free(pieces.size(), false);
+    for (std::size_t i = 0; i < pieces.size(); ++i) {
+        const curves::Piece& piece = pieces[i];
         const double left = left_side(kernel.region(), piece);
         if (left == 0.0) continue;
         const Shape shape = shape_of(piece);
@@ -173,10 +226,13 @@ void walls(const solids::ContourSweep& kernel, Faces& faces) {
         } else if (shape.kind == Shape::circle && faces.is_round()) {
             faces.cylinder({shape.centre.x, shape.centre.y, 0}, shape.radius, left * shape.turn,
                            "wall");
+        } else if (faces.is_round()) {
+            is_free[i] = true;
         } else {
-            faces.unknown(shape.kind == Shape::circle ? kStretched : kFreeForm);
+            faces.unknown(kStretched);
         }
     }
+    add_runs(kernel.region(), is_free, faces, false);
 }
 
 void turned_walls(const solids::Revolve::Kernel& kernel, Faces& faces) {
@@ -185,7 +241,10 @@ void turned_walls(const solids::Revolve::Kernel& kernel, Faces& faces) {
         faces.plane({}, {0, -1, 0}, "start");
         faces.plane({}, kernel.end_normal(), "end");
     }
-    for (const curves::Piece& piece : kernel.region().pieces()) {
+    const auto& pieces = kernel.region().pieces();
+    std::vector<bool> is_free(pieces.size(), false);
+    for (std::size_t i = 0; i < pieces.size(); ++i) {
+        const curves::Piece& piece = pieces[i];
         const double left = left_side(kernel.region(), piece);
         if (left == 0.0) continue;
         const Shape shape = shape_of(piece);
@@ -208,9 +267,10 @@ void turned_walls(const solids::Revolve::Kernel& kernel, Faces& faces) {
                 faces.torus(shape.centre.y, shape.centre.x, shape.radius, side, "wall");
             }
         } else {
-            faces.unknown(shape.kind == Shape::circle ? kStretched : kFreeForm);
+            is_free[i] = true;
         }
     }
+    add_runs(kernel.region(), is_free, faces, true);
 }
 
 struct AddFaces {
@@ -248,7 +308,7 @@ struct AddFaces {
     void operator()(const solids::Revolve::Kernel& kernel) const { turned_walls(kernel, faces); }
     template <class K>
     void operator()(const K&) const {
-        faces.unknown("it is none of plane, sphere, cylinder, cone and torus");
+        faces.unknown("it is bounded by none of the surfaces that can be");
     }
 };
 

@@ -119,6 +119,47 @@ std::optional<Trace> follow_closed(const Surface& a, const Surface& b, const Aab
     return trace;
 }
 
+/// Meetings of a free-form surface with another: along its rulings, or along its meridians from sample to sample.
+std::vector<Vec3> free_seeds(const Surface& a, const Surface& b, const Aabb& box) {
+    std::vector<Vec3> out;
+    const auto& samples = a.run->samples();
+    if (a.kind == SurfaceKind::wall) {
+        const double size = size_of(box);
+        EdgeCurve line;
+        line.along = a.axis;
+        line.across = a.across;
+        line.up = a.up;
+        line.origin = a.point + a.axis * dot(box.centre() - a.point, a.axis);
+        std::vector<double> at;
+        for (const Vec2 p : samples) {
+            at.clear();
+            append_crossings(line, p, b, -size, size, at);
+            for (const double t : at) out.push_back(line.place(p, t));
+        }
+        return out;
+    }
+    Vec3 u;
+    Vec3 v;
+    make_frame(a.axis, u, v);
+    for (int i = 0; i < kFamily; ++i) {
+        const double angle = 2.0 * std::numbers::pi * (i + 0.3819) / kFamily;
+        const Vec3 outward = u * std::cos(angle) + v * std::sin(angle);
+        const auto place = [&](Vec2 p) { return a.point + outward * p.x + a.axis * p.y; };
+        for (std::size_t k = 0; k + 1 < samples.size() + (a.run->is_closed() ? 1 : 0); ++k) {
+            Vec2 inner = samples[k];
+            Vec2 outer = samples[(k + 1) % samples.size()];
+            const bool before = b.distance(place(inner)) < 0.0;
+            if ((b.distance(place(outer)) < 0.0) == before) continue;
+            for (int step = 0; step < 40; ++step) {
+                const Vec2 middle = (inner + outer) * 0.5;
+                ((b.distance(place(middle)) < 0.0) == before ? inner : outer) = middle;
+            }
+            out.push_back(place(inner));
+        }
+    }
+    return out;
+}
+
 /// Meetings of a family of lines or circles on `a` with `b`.
 std::vector<Vec3> seeds(const Surface& a, const Surface& b, const Aabb& box) {
     std::vector<Vec3> out;
@@ -176,6 +217,9 @@ std::vector<Vec3> seeds(const Surface& a, const Surface& b, const Aabb& box) {
                 line.up = a.axis;
                 line.along = cross(out_at, a.axis);
                 meet({a.tube, 0.0});
+                continue;
+            case SurfaceKind::wall:
+            case SurfaceKind::turned:
                 continue;
         }
         make_frame(line.along, line.across, line.up);
@@ -242,7 +286,11 @@ std::vector<SpaceEdgePtr> space_edges(const Surface& a, const Surface& b, const 
     std::vector<SpaceEdgePtr> out;
     const bool swap = (a.kind == SurfaceKind::sphere || a.kind == SurfaceKind::torus) &&
                       b.kind != SurfaceKind::sphere && b.kind != SurfaceKind::torus;
-    for (Vec3 p : swap ? seeds(b, a, box) : seeds(a, b, box)) {
+    const std::vector<Vec3> begin = a.is_free()   ? free_seeds(a, b, box)
+                                    : b.is_free() ? free_seeds(b, a, box)
+                                    : swap        ? seeds(b, a, box)
+                                                  : seeds(a, b, box);
+    for (Vec3 p : begin) {
         if (!box.contains(p) || is_known(out, p)) continue;
         const auto t = direction(a, b, p);
         if (!t || !to_distances(a, 0.0, b, 0.0, *t, p)) continue;

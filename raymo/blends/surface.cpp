@@ -37,6 +37,10 @@ std::string_view kind_name(SurfaceKind kind) {
             return "cone";
         case SurfaceKind::torus:
             return "torus";
+        case SurfaceKind::wall:
+            return "wall";
+        case SurfaceKind::turned:
+            return "surface of revolution";
     }
     return "";
 }
@@ -56,6 +60,12 @@ double Surface::distance(Vec3 p) const {
         case SurfaceKind::torus: {
             const Polar q = polar(*this, p);
             return std::hypot(q.across - radius, q.along) - tube;
+        }
+        case SurfaceKind::wall:
+            return run->nearest({dot(p - point, across), dot(p - point, up)}).distance;
+        case SurfaceKind::turned: {
+            const Polar q = polar(*this, p);
+            return run->nearest({q.across, q.along}).distance;
         }
     }
     return 0.0;
@@ -79,6 +89,15 @@ Vec3 Surface::normal(Vec3 p) const {
             const double x = q.across - radius;
             const double r = std::hypot(x, q.along);
             return r > 0.0 ? q.direction * (x / r) + axis * (q.along / r) : q.direction;
+        }
+        case SurfaceKind::wall: {
+            const Vec2 n = run->nearest({dot(p - point, across), dot(p - point, up)}).normal;
+            return across * n.x + up * n.y;
+        }
+        case SurfaceKind::turned: {
+            const Polar q = polar(*this, p);
+            const Vec2 n = run->nearest({q.across, q.along}).normal;
+            return q.direction * n.x + axis * n.y;
         }
     }
     return axis;

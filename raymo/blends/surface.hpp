@@ -1,20 +1,22 @@
-// The surfaces that blends join: planes, spheres, cylinders, cones and tori, each with a signed distance.
+// The surfaces that blends join, each with a signed distance: planes, spheres, cylinders, cones and tori, and the walls that a
+// free-form curve sweeps along a line or about an axis.
 #pragma once
 
 #include <cstdint>
 #include <string_view>
 
+#include "raymo/blends/profile.hpp"
 #include "raymo/math/vec.hpp"
 
 namespace raymo::blends {
 
-enum class SurfaceKind : std::uint8_t { plane, sphere, cylinder, cone, torus };
+enum class SurfaceKind : std::uint8_t { plane, sphere, cylinder, cone, torus, wall, turned };
 
 /// "plane", "sphere", ...
 [[nodiscard]] std::string_view kind_name(SurfaceKind kind);
 
-/// One of the five surfaces. `distance` is negative on the inner side: below a plane's normal, within a sphere, a cylinder,
-/// a cone's nappe or a torus' tube.
+/// One of these surfaces. `distance` is negative on the inner side: below a plane's normal, within a sphere, a cylinder,
+/// a cone's nappe or a torus' tube, and to the left of a curve.
 struct Surface {
     SurfaceKind kind = SurfaceKind::plane;
     Vec3
@@ -25,9 +27,14 @@ struct Surface {
     double tube = 0.0;    ///< radius of the torus' tube
     double sine = 0.0;    ///< of the cone's half angle
     double cosine = 1.0;
+    RunPtr
+        run;  ///< of a wall, in (across, up) from `point`; of what is turned, in (radius, height above `point`)
+    Vec3 across, up{};  ///< of a wall: unit
 
     /// Euclidean, and exact but for rounding; of a cone and behind its apex: to the cone run through without end.
     [[nodiscard]] double distance(Vec3 p) const;
+    /// Whether it is made of a free-form curve.
+    [[nodiscard]] bool is_free() const { return run != nullptr; }
     /// Unit; the direction in which the distance grows. On an axis any of the directions across.
     [[nodiscard]] Vec3 normal(Vec3 p) const;
 };

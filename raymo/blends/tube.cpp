@@ -234,6 +234,9 @@ Surface offset(Surface s, double by) {
         case SurfaceKind::torus:
             s.tube += by;
             break;
+        case SurfaceKind::wall:
+        case SurfaceKind::turned:
+            break;
     }
     return s;
 }
@@ -276,8 +279,10 @@ Result<csg::Solid> tube_wedge(const Body& body, const Segment& segment, double r
     for (std::size_t i = 0; i < 2; ++i) {
         const Surface& surface = body.faces()[i == 0 ? segment.face_a : segment.face_b].surface;
         const double side = (i == 0 ? segment.edge.a : segment.edge.b).side;
-        auto inner = inner_side(offset(surface, -s * side * kBeyond * radius), box.centre(),
-                                2.0 * norm(box.size()), span);
+        auto inner = surface.is_free()
+                         ? whole_leaf(body, i == 0 ? segment.face_a : segment.face_b, span)
+                         : inner_side(offset(surface, -s * side * kBeyond * radius), box.centre(),
+                                      2.0 * norm(box.size()), span);
         if (!inner) return inner;
         // A round lies within the faces' own side, a fillet beyond it.
         ((s < 0.0) == (side > 0.0) ? kept : lost).push_back(std::move(*inner));

@@ -53,11 +53,13 @@ std::optional<std::size_t> job_of(const Body& body, const std::vector<Job>& jobs
 }
 
 /// The part of `wedge` on the segment's own side of a face, and what of `more` there is beyond it.
-Result<csg::Solid> on_own_side(csg::Solid wedge, const Segment& segment, std::size_t end,
-                               const Surface& surface, double reach, const csg::Solid& more,
-                               SourceSpan span) {
+Result<csg::Solid> on_own_side(const Body& body, csg::Solid wedge, const Segment& segment,
+                               std::size_t end, std::size_t face, double reach,
+                               const csg::Solid& more, SourceSpan span) {
+    const Surface& surface = body.faces()[face].surface;
     const Vec3 at = segment.ends[end].point;
-    auto inner = inner_side(surface, at, reach, span);
+    auto inner =
+        surface.is_free() ? whole_leaf(body, face, span) : inner_side(surface, at, reach, span);
     if (!inner) return inner;
     const Vec3 forth = segment.tangent(segment.ends[end].at) * (end == 0 ? 1.0 : -1.0);
     const bool is_inner = dot(surface.normal(at), forth) < 0.0;
@@ -70,6 +72,12 @@ Result<csg::Solid> on_own_side(csg::Solid wedge, const Segment& segment, std::si
 }
 
 }  // namespace
+
+Result<csg::Solid> whole_leaf(const Body& body, std::size_t face, SourceSpan span) {
+    const Leaf& leaf = body.leaves()[body.faces()[face].leaf];
+    const Affine& own = csg::as_leaf(leaf.solid.node()).solid.to_object;
+    return csg::transform(leaf.solid, leaf.map * inverse(own), span);
+}
 
 Result<csg::Solid> inner_side(const Surface& s, Vec3 at, double reach, SourceSpan span) {
     const auto placed = [&](Result<csg::Solid> solid, Vec3 origin) {
@@ -100,6 +108,9 @@ Result<csg::Solid> inner_side(const Surface& s, Vec3 at, double reach, SourceSpa
         }
         case SurfaceKind::torus:
             return placed(make<solids::Torus>({s.radius, s.tube}, span), s.point);
+        case SurfaceKind::wall:
+        case SurfaceKind::turned:
+            break;
     }
     return fail(ErrorCode::evaluation, "unknown surface");
 }
@@ -179,8 +190,8 @@ Result<csg::Solid> cut_at_ends(const Body& body, const std::vector<Job>& jobs, s
     for (std::size_t end = 0; end < 2; ++end) {
         const EndPlan& plan = plans[end];
         if (plan.ending != Ending::cut && plan.ending != Ending::mitre) continue;
-        solid = on_own_side(std::move(*solid), self.segment, end, body.faces()[plan.face].surface,
-                            reach, plan.next ? jobs[*plan.next].solid : csg::Solid{}, span);
+        solid = on_own_side(body, std::move(*solid), self.segment, end, plan.face, reach,
+                            plan.next ? jobs[*plan.next].solid : csg::Solid{}, span);
         if (!solid) return solid;
     }
     return solid;

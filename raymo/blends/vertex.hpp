@@ -34,6 +34,8 @@ struct EndPlan {
 /// A solid with a surface as its boundary near `at`: on its inner side, and as large as `reach` there.
 [[nodiscard]] Result<csg::Solid> inner_side(const Surface& s, Vec3 at, double reach,
                                             SourceSpan span);
+/// The leaf of a face, in the body's frame: what a free-form face has on its inner side.
+[[nodiscard]] Result<csg::Solid> whole_leaf(const Body& body, std::size_t face, SourceSpan span);
 
 /// Runs the wedge of a job on as its plans ask for.
 void extend(const Body& body, std::vector<Job>& jobs, std::size_t job, double radius,
