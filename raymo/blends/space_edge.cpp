@@ -97,9 +97,11 @@ std::optional<Trace> follow_closed(const Surface& a, const Surface& b, const Aab
                                    double h) {
     Trace trace = follow(a, b, box, start, h, kMostNodes);
     if (!trace.is_closed) return std::nullopt;
-    // n steps overshoot a little: shorten them until they do not.
-    const auto n = static_cast<double>(trace.nodes.size());
-    double step = h;
+    // n steps overshoot a little: shorten them until they do not. A multiple of 16 can be taken two, four, ... at a time.
+    const std::size_t count = (trace.nodes.size() + 15) / 16 * 16;
+    const auto n = static_cast<double>(count);
+    double step = h * static_cast<double>(trace.nodes.size()) / n;
+    trace.nodes.resize(count);
     for (int i = 0; i < 40; ++i) {
         Vec3 p = start;
         for (double k = 0; k < n; ++k) {

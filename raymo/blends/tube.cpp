@@ -21,6 +21,11 @@ constexpr double kBeyond = 0x1p-20;
 /// A spline is not sure of itself next to its ends; what it does there fades to a quarter with every node.
 constexpr double kSpare = 16.0;
 
+/// How far the ball's path may be off, and how far the end of a wedge from the contacts, as parts of the radius: what the picture
+/// and the volume feel of the latter is its square.
+constexpr double kTube = 0x1p-32;
+constexpr double kContact = 0x1p-24;
+
 Point<4> sphere_at(Vec3 p, double r) { return {p.x, p.y, p.z, r}; }
 
 /// The curve of a contact near t: where, and which way.
@@ -152,58 +157,119 @@ curves::PathSpan path_span(const SplineSpan<4>& s) {
     return out;
 }
 
-/// The spline through f(t) at whole t, from lo to hi, or all round.
-template <class F>
-Result<curves::PathPtr> path_through(const Segment& segment, double lo, double hi, F&& f) {
-    const double last = segment.space->last();
-    const bool ring = segment.is_closed;
-    const bool open = !segment.space->is_closed();
-    double first = ring ? 0.0 : std::floor(lo) - kSpare;
-    double end = ring ? last - 1.0 : std::ceil(hi) + kSpare;
-    if (open) {
-        first = std::max(first, 0.0);
-        end = std::min(end, last);
-        lo = std::max(lo, first);
-        hi = std::min(hi, end);
-    }
+/// Values of a function at whole parameters from `first` on.
+struct Row {
+    double first = 0.0;
     std::vector<Point<4>> points;
-    for (double t = first; t <= end; t += 1.0) {
+};
+
+Failure lost() {
+    return fail(ErrorCode::out_of_range, "no ball of this radius rolls along the whole edge",
+                "take a smaller radius");
+}
+
+/// f at the nodes of a segment: all round, or from lo to hi and some beyond.
+template <class F>
+Result<Row> values(const Segment& segment, double lo, double hi, F&& f) {
+    Row row;
+    const bool ring = segment.is_closed;
+    double end = segment.space->last() - 1.0;
+    if (!ring) {
+        row.first = std::floor(lo) - kSpare;
+        end = std::ceil(hi) + kSpare;
+        if (!segment.space->is_closed()) {
+            row.first = std::max(row.first, 0.0);
+            end = std::min(end, segment.space->last());
+        }
+    }
+    for (double t = row.first; t <= end; t += 1.0) {
         const std::optional<Point<4>> p = f(t);
         if (p) {
-            points.push_back(*p);
+            row.points.push_back(*p);
         } else if (ring || (t >= lo && t <= hi)) {
-            return fail(ErrorCode::out_of_range,
-                        "no ball of this radius rolls along the whole edge",
-                        "take a smaller radius");
+            return lost();
         } else if (t < lo) {
             // Beyond the ends it may be lost.
-            points.clear();
-            first = t + 1.0;
+            row.points.clear();
+            row.first = t + 1.0;
         } else {
             break;
         }
     }
-    lo = std::max(lo, first);
-    hi = std::min(hi, first + static_cast<double>(points.size()) - 1.0);
-    if (points.size() < 4 || !(lo < hi)) {
-        return fail(ErrorCode::out_of_range, "no ball of this radius rolls along the whole edge",
-                    "take a smaller radius");
-    }
+    return row;
+}
+
+Point<4> value_at(const SplineSpan<4>& span, double u) { return cut(span, u, true)[0]; }
+
+/// The spline through every `stride`-th point, and how far it passes the others by.
+struct Fitted {
+    curves::Spline<4> spline;
+    double error = 0.0;
+};
+Result<Fitted> fit(const Row& row, bool ring, std::size_t stride) {
+    std::vector<Point<4>> points;
+    for (std::size_t i = 0; i < row.points.size(); i += stride) points.push_back(row.points[i]);
     curves::SplineForm form;
     form.kind = curves::SplineKind::interpolate;
     form.closed = ring;
     auto spline = curves::spline<4>(points, form);
     if (!spline) return Failure(std::move(spline).error());
+    Fitted out{std::move(*spline), 0.0};
+    for (std::size_t i = 0; i < row.points.size(); ++i) {
+        const std::size_t span = i / stride;
+        if (span >= out.spline.spans.size()) break;
+        // Next to open ends it is not to be relied upon, nor is it used there.
+        if (!ring && (i < row.points.size() / 8 || i > row.points.size() - row.points.size() / 8))
+            continue;
+        const double u = static_cast<double>(i % stride) / static_cast<double>(stride);
+        const Point<4> p = value_at(out.spline.spans[span], u);
+        for (std::size_t k = 0; k < 4; ++k) {
+            out.error = std::max(out.error, std::fabs(p[k] - row.points[i][k]));
+        }
+    }
+    return out;
+}
+
+/// The path of spheres f(t) from lo to hi, or all round, to within `tolerance`, with as few spans as that allows: a ray that meets
+/// a thick tube meets many of them.
+template <class F>
+Result<curves::PathPtr> path_through(const Segment& segment, double lo, double hi, double tolerance,
+                                     F&& f) {
+    const bool ring = segment.is_closed;
+    auto row = values(segment, lo, hi, f);
+    if (!row) return Failure(std::move(row).error());
+    lo = std::max(lo, row->first);
+    hi = std::min(hi, row->first + static_cast<double>(row->points.size()) - 1.0);
+    if (row->points.size() < 8 || !(lo < hi)) return lost();
+    std::size_t stride = 1;
+    auto fitted = fit(*row, ring, 1);
+    if (!fitted) return Failure(std::move(fitted).error());
+    for (std::size_t k = 16; k > 1 && stride == 1; k /= 2) {
+        // A ring must come out even; an open row ends where its last stride does.
+        if (row->points.size() < 8 * k || (ring && row->points.size() % k != 0)) continue;
+        Row part = *row;
+        if (!ring) {
+            const std::size_t whole = (part.points.size() - 1) / k * k + 1;
+            if (row->first + static_cast<double>(whole - 1) < hi) continue;
+            part.points.resize(whole);
+        }
+        auto coarse = fit(part, ring, k);
+        if (coarse && coarse->error <= tolerance) {
+            fitted = std::move(coarse);
+            stride = k;
+        }
+    }
     curves::Path path;
     path.closed = ring;
-    for (std::size_t i = 0; i < spline->spans.size(); ++i) {
-        SplineSpan<4> span = spline->spans[i];
+    const auto step = static_cast<double>(stride);
+    for (std::size_t i = 0; i < fitted->spline.spans.size(); ++i) {
+        SplineSpan<4> span = fitted->spline.spans[i];
         if (!ring) {
-            const double from = first + static_cast<double>(i);
-            if (from + 1.0 <= lo || from >= hi) continue;
+            const double from = row->first + step * static_cast<double>(i);
+            if (from + step <= lo || from >= hi) continue;
             // The later cut first: it leaves the place of the earlier one.
-            const double top = std::min(hi - from, 1.0);
-            const double low = std::max(lo - from, 0.0);
+            const double top = std::min((hi - from) / step, 1.0);
+            const double low = std::max((lo - from) / step, 0.0);
             if (top < 1.0) span = cut(span, top, false);
             if (low > 0.0) span = cut(span, low / top, true);
         }
@@ -249,22 +315,23 @@ Result<csg::Solid> tube_wedge(const Body& body, const Segment& segment, double r
     const int copies = spheres.copies(lo, hi);
     std::vector<csg::Solid> parts;
     for (int k = 0; k <= std::max(copies, 0); ++k) {
-        auto part = swept(
-            path_through(segment, lo, hi, [&](double t) { return spheres.copy(t, k); }), span);
+        auto part = swept(path_through(segment, lo, hi, kContact * radius,
+                                       [&](double t) { return spheres.copy(t, k); }),
+                          span);
         if (!part) return part;
         parts.push_back(std::move(*part));
     }
     if (copies >= 0) {
-        auto part = swept(
-            path_through(segment, lo, hi, [&](double t) { return spheres.last(t, copies + 1); }),
-            span);
+        auto part = swept(path_through(segment, lo, hi, kContact * radius,
+                                       [&](double t) { return spheres.last(t, copies + 1); }),
+                          span);
         if (!part) return part;
         parts.push_back(std::move(*part));
     }
     const csg::Solid along_edge =
         parts.size() == 1 ? parts[0] : csg::boolean(csg::Op::unite, std::move(parts), span);
     // The tube is longer, so that its ends cut nothing.
-    auto tube = swept(path_through(segment, lo - 4.0, hi + 4.0,
+    auto tube = swept(path_through(segment, lo - 4.0, hi + 4.0, kTube * radius,
                                    [&](double t) -> std::optional<Point<4>> {
                                        const auto touch = touch_at(body, segment, radius, t);
                                        if (!touch) return std::nullopt;
