@@ -2,8 +2,8 @@
 #
 # Declares the folder raymo/NAME as one layer: a static library `raymo_NAME` (alias raymo::NAME), its unit tests
 # `unit.NAME` (every *_test.cpp below the folder), the test `layer.NAME`, which fails on an include of a layer that is
-# not among USES, and `headers.NAME`, which compiles every header alone. Sources are found by globbing on purpose: a
-# list would be a second place to register a file.
+# not among USES (its tests may include those of TESTED_WITH, too), and `headers.NAME`, which compiles every header
+# alone. Sources are found by globbing on purpose: a list would be a second place to register a file.
 function(raymo_layer name)
   cmake_parse_arguments(ARG "" "" "USES;LINKS;TESTED_WITH" ${ARGN})
   set(dir ${PROJECT_SOURCE_DIR}/raymo/${name})
@@ -37,8 +37,10 @@ function(raymo_layer name)
       raymo_compile(unit_${name} program)
       add_test(NAME unit.${name} COMMAND unit_${name})
     endif()
+    list(TRANSFORM ARG_TESTED_WITH REPLACE "^raymo::" "")
     add_test(NAME layer.${name}
-             COMMAND ${CMAKE_COMMAND} -DLAYER=${name} "-DALLOWED=${name};${ARG_USES}" -DDIR=${dir}
+             COMMAND ${CMAKE_COMMAND} -DLAYER=${name} "-DALLOWED=${name};${ARG_USES}" "-DTESTED_WITH=${ARG_TESTED_WITH}"
+                     -DDIR=${dir}
                      -P ${PROJECT_SOURCE_DIR}/cmake/CheckIncludes.cmake)
     raymo_check_headers(${name} ${headers})
   endif()
