@@ -88,6 +88,7 @@ Result<Body> Body::make(csg::Op op, const std::vector<csg::Solid>& operands) {
     Body body;
     for (std::size_t i = 0; i < operands.size(); ++i) {
         if (auto added = body.add(operands[i], i); !added) return Failure(std::move(added).error());
+        body.ends_.push_back(body.steps_.size());
         const Aabb box = csg::bounds(operands[i]);
         if (i == 0) {
             body.box_ = box;
@@ -101,9 +102,10 @@ Result<Body> Body::make(csg::Op op, const std::vector<csg::Solid>& operands) {
     return body;
 }
 
-Where Body::where(Vec3 p) const {
+Where Body::where(Vec3 p, std::size_t begin, std::size_t end) const {
     std::vector<Where> values;
-    for (const Step& step : steps_) {
+    for (std::size_t i = begin; i < end; ++i) {
+        const Step& step = steps_[i];
         if (step.is_leaf) {
             values.push_back(where_in(leaves_[step.count], p));
             continue;

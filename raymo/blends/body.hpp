@@ -42,7 +42,11 @@ public:
     /// Of the operands joined.
     [[nodiscard]] const Aabb& box() const { return box_; }
     /// Where a point is, as its leaves decide it: on when a leaf on whose boundary it lies could change the answer.
-    [[nodiscard]] solids::Where where(Vec3 p) const;
+    [[nodiscard]] solids::Where where(Vec3 p) const { return where(p, 0, steps_.size()); }
+    /// The same of one of the operands alone.
+    [[nodiscard]] solids::Where where_in_operand(std::size_t operand, Vec3 p) const {
+        return where(p, operand == 0 ? 0 : ends_[operand - 1], ends_[operand]);
+    }
     /// Whether a point lies on the boundary of a face's leaf.
     [[nodiscard]] bool is_on(const Face& face, Vec3 p) const;
     /// "the top of the block"
@@ -56,10 +60,12 @@ private:
         std::uint32_t count = 0;  ///< or the number of the leaf
     };
     [[nodiscard]] Result<void> add(const csg::Solid& solid, std::size_t operand);
+    [[nodiscard]] solids::Where where(Vec3 p, std::size_t begin, std::size_t end) const;
 
     std::vector<Leaf> leaves_;
     std::vector<Face> faces_;
     std::vector<Step> steps_;
+    std::vector<std::size_t> ends_;  ///< of the operands' steps
     Aabb box_;
 };
 

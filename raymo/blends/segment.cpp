@@ -59,8 +59,10 @@ private:
         for (const EdgeCurve& edge : meeting.edges) along(edge, i, k, box);
     }
 
-    /// Which sectors about a point are solid, by the two natural outward normals there.
-    [[nodiscard]] Sectors sectors(Vec3 at, Vec3 na, Vec3 nb, double step) const {
+    /// Which sectors about a point are solid, by the two natural outward normals there; of the whole body, or of an operand.
+    static constexpr std::size_t kBody = ~std::size_t{0};
+    [[nodiscard]] Sectors sectors(Vec3 at, Vec3 na, Vec3 nb, double step,
+                                  std::size_t operand) const {
         Sectors out = 0;
         for (unsigned sector = 0; sector < 4; ++sector) {
             const double sa = (sector & 2U) != 0 ? -1.0 : 1.0;
@@ -68,27 +70,30 @@ private:
             const Vec3 w = na * sa + nb * sb;
             // Along the bisector, as far from both as the step.
             const double sine = std::fabs(dot(w, na)) / norm(w);
-            const Where where = body_.where(at + w * (step / (std::max(sine, kSmooth) * norm(w))));
+            const Vec3 p = at + w * (step / (std::max(sine, kSmooth) * norm(w)));
+            const Where where =
+                operand == kBody ? body_.where(p) : body_.where_in_operand(operand, p);
             if (where == Where::on) return kUnknownSectors;
             if (where == Where::in) out = static_cast<Sectors>(out | (1U << sector));
         }
         return out;
     }
-    [[nodiscard]] Sectors sectors(const EdgeCurve& edge, double t) const {
+    [[nodiscard]] Sectors sectors(const EdgeCurve& edge, double t,
+                                  std::size_t operand = kBody) const {
         double step = 0x1p-14 * reach_;
         for (const SectionCurve* c : {&edge.a, &edge.b}) {
             if (!c->is_line) step = std::min(step, 0x1p-14 * c->radius);
         }
         if (edge.is_circle) step = std::min(step, 0x1p-14 * edge.at.x);
         return sectors(edge.point(t), edge.turn(edge.a.outward(edge.at), t),
-                       edge.turn(edge.b.outward(edge.at), t), step);
+                       edge.turn(edge.b.outward(edge.at), t), step, operand);
     }
-    [[nodiscard]] Sectors sectors(const SpaceEdge& edge, std::size_t i, std::size_t k,
-                                  double t) const {
+    [[nodiscard]] Sectors sectors(const SpaceEdge& edge, std::size_t i, std::size_t k, double t,
+                                  std::size_t operand = kBody) const {
         const Vec3 p = edge.point(t);
         const double step = 0x1p-14 * std::min(reach_, edge.speed());
         return sectors(p, body_.faces()[i].surface.normal(p), body_.faces()[k].surface.normal(p),
-                       step);
+                       step, operand);
     }
 
     void along(const EdgeCurve& edge, std::size_t i, std::size_t k, const Aabb& box) {
@@ -182,6 +187,19 @@ private:
         return lo < hi;
     }
 
+    /// Whether one of the two operands has the same edge by itself, as where their faces are flush.
+    [[nodiscard]] bool is_old(const Segment& segment, Sectors now, std::size_t i,
+                              std::size_t k) const {
+        const double t = segment.middle();
+        for (const std::size_t face : {i, k}) {
+            const std::size_t operand = leaf_of(face).operand;
+            if ((segment.space ? sectors(*segment.space, i, k, t, operand)
+                               : sectors(segment.edge, t, operand)) == now)
+                return true;
+        }
+        return false;
+    }
+
     /// Turns the sides of a stretch's curves. False when it is no edge to blend.
     bool orient(Sectors sectors, std::size_t i, std::size_t k, Segment& segment) const {
         if (sectors == kUnknownSectors) return false;
@@ -191,6 +209,7 @@ private:
             return false;
         const int solid = std::popcount(static_cast<unsigned>(sectors));
         if (solid != 1 && solid != 3) return false;
+        if (!within_operands_ && is_old(segment, sectors, i, k)) return false;
         segment.is_convex = solid == 1;
         const unsigned odd = segment.is_convex ? sectors : (~sectors & 0xfU);
         const auto sector = static_cast<unsigned>(std::countr_zero(odd));
