@@ -12,6 +12,7 @@ using solids::Where;
 /// Of a point of the body, in a leaf's frame. The body's frame is that in which the user wrote the blend, so the leaf's map
 /// and the point carry a few roundings each, as large as the larger of them.
 Where where_in(const Leaf& leaf, Vec3 p) {
+    if (!leaf.near.contains(p)) return Where::out;
     const Vec3 q = leaf.inverse(p);
     const Vec3 reach = abs(p) + abs(leaf.map.offset);
     const Vec3 e = (abs(leaf.inverse.linear) * reach + abs(q)) * kPointError;
@@ -51,6 +52,8 @@ Result<void> Body::add(const csg::Solid& solid, std::size_t operand) {
                 leaf.operand = operand;
                 leaf.box = std::visit([&](const auto& kernel) { return kernel.bounds(leaf.map); },
                                       csg::as_leaf(node).solid.kernel);
+                // A point this far outside is out whatever its error.
+                leaf.near = grown(leaf.box, 0x1p-20 * norm(leaf.box.size()));
                 add_faces(leaf, static_cast<std::uint32_t>(leaves_.size()), faces_);
                 steps_.push_back(
                     {true, csg::Op::unite, static_cast<std::uint32_t>(leaves_.size())});

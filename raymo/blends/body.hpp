@@ -23,6 +23,7 @@ struct Leaf {
     Affine map;        ///< from the kernel's frame to the body's
     Affine inverse;
     Aabb box;
+    Aabb near;  ///< the box, grown by much more than rounding
     csg::MaterialId material = csg::kNoMaterial;
     std::size_t operand = 0;  ///< of which operand it is part
     std::size_t first_face = 0;

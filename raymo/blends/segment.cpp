@@ -105,8 +105,9 @@ private:
         if (!edge.is_circle && !clip(edge, box, lo, hi)) return;
         marks_.clear();
         std::vector<double> crossings;
+        const Aabb reach = box_of(edge, lo, hi);
         for (std::size_t f = 0; f < body_.faces().size(); ++f) {
-            if (f == i || f == k) continue;
+            if (f == i || f == k || overlap(leaf_of(f).near, reach).empty()) continue;
             crossings.clear();
             append_crossings(edge, edge.at, body_.faces()[f].surface, lo, hi, crossings);
             for (const double at : crossings) marks_.push_back({at, f});
@@ -166,6 +167,17 @@ private:
             set_end(segment, 1, segment.hi, after, tiny);
             keep(std::move(segment));
         }
+    }
+
+    static Aabb box_of(const EdgeCurve& edge, double lo, double hi) {
+        Aabb box;
+        if (!edge.is_circle) {
+            box.include(edge.point(lo));
+            box.include(edge.point(hi));
+            return box;
+        }
+        box.include(edge.place({0.0, edge.at.y}, 0.0));
+        return grown(box, edge.at.x);
     }
 
     /// The part of a line within a box.

@@ -237,9 +237,29 @@ std::optional<Vec3> meet(const Body& body, const Corner& corner, double d, Vec3 
 }
 
 /// Between the ball at `c` and the planes through c and two of its contacts each: a pyramid without end but for the planes
-/// that touch the ball at the contacts, moved away a little.
+/// that touch the ball at the contacts, moved away a little. Where all are at right angles it is a block.
 Result<csg::Solid> ball_corner(const std::array<Vec3, 3>& to_contact, Vec3 c, double radius,
                                SourceSpan span) {
+    auto ball = make<solids::Sphere>({radius}, span);
+    if (!ball) return ball;
+    ball = csg::transform(std::move(*ball), translation(c), span);
+    if (!ball) return ball;
+    const double size = radius * (1.0 + 0x1p-20);
+    const auto is_across = [](Vec3 p, Vec3 q) { return std::fabs(dot(p, q)) <= 0x1p-46; };
+    if (is_across(to_contact[0], to_contact[1]) && is_across(to_contact[0], to_contact[2]) &&
+        is_across(to_contact[1], to_contact[2])) {
+        Affine map;
+        for (int i = 0; i < 3; ++i) {
+            map.linear.row[static_cast<std::size_t>(i)] = {to_contact[0][i], to_contact[1][i],
+                                                           to_contact[2][i]};
+        }
+        map.offset = c;
+        auto block = make<solids::Block>({Vec3{size, size, size}, false}, span);
+        if (!block) return block;
+        block = csg::transform(std::move(*block), map, span);
+        if (!block) return block;
+        return csg::boolean(csg::Op::difference, {std::move(*block), std::move(*ball)}, span);
+    }
     std::vector<csg::Solid> sides;
     for (std::size_t i = 0; i < 3; ++i) {
         const Vec3 p = to_contact[i];
@@ -250,14 +270,10 @@ Result<csg::Solid> ball_corner(const std::array<Vec3, 3>& to_contact, Vec3 c, do
         auto side = make<solids::Halfspace>({n, dot(n, c)}, span);
         if (!side) return side;
         sides.push_back(std::move(*side));
-        auto end = make<solids::Halfspace>({p, dot(p, c) + radius * (1.0 + 0x1p-20)}, span);
+        auto end = make<solids::Halfspace>({p, dot(p, c) + size}, span);
         if (!end) return end;
         sides.push_back(std::move(*end));
     }
-    auto ball = make<solids::Sphere>({radius}, span);
-    if (!ball) return ball;
-    ball = csg::transform(std::move(*ball), translation(c), span);
-    if (!ball) return ball;
     return csg::boolean(csg::Op::difference,
                         {csg::boolean(csg::Op::intersection, std::move(sides), span), *ball}, span);
 }

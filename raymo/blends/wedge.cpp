@@ -74,6 +74,8 @@ Fitting at_contact(const Body& body, const Segment& segment, const Touch& touch,
 Fitting around(const Body& body, const Segment& segment, Vec3 c, double radius) {
     for (std::size_t f = 0; f < body.faces().size(); ++f) {
         if (f == segment.face_a || f == segment.face_b) continue;
+        const Aabb& box = body.leaves()[body.faces()[f].leaf].box;
+        if (!grown(box, radius).contains(c)) continue;
         const Surface& surface = body.faces()[f].surface;
         const double d = surface.distance(c);
         if (!(std::fabs(d) < (1.0 - kPress) * radius)) continue;
