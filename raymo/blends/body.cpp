@@ -11,11 +11,12 @@ using solids::Where;
 
 /// Of a point of the body, in a leaf's frame. The body's frame is that in which the user wrote the blend, so the leaf's map
 /// and the point carry a few roundings each, as large as the larger of them.
-Where where_in(const Leaf& leaf, Vec3 p) {
-    if (!leaf.near.contains(p)) return Where::out;
+Where where_in(const Leaf& leaf, Vec3 p, double margin = 0.0) {
+    if (!grown(leaf.near, margin).contains(p)) return Where::out;
     const Vec3 q = leaf.inverse(p);
     const Vec3 reach = abs(p) + abs(leaf.map.offset);
-    const Vec3 e = (abs(leaf.inverse.linear) * reach + abs(q)) * kPointError;
+    const Vec3 e = (abs(leaf.inverse.linear) * reach + abs(q)) * kPointError +
+                   abs(leaf.inverse.linear) * Vec3{margin, margin, margin};
     return std::visit([&](const auto& kernel) { return kernel.where(q, e); },
                       csg::as_leaf(leaf.solid.node()).solid.kernel);
 }
@@ -126,8 +127,8 @@ Where Body::where(Vec3 p, std::size_t begin, std::size_t end) const {
     return values.front();
 }
 
-bool Body::is_on(const Face& face, Vec3 p) const {
-    return where_in(leaves_[face.leaf], p) == Where::on;
+bool Body::is_on(const Face& face, Vec3 p, double margin) const {
+    return where_in(leaves_[face.leaf], p, margin) == Where::on;
 }
 
 std::string Body::name_of(const Face& face) const {

@@ -48,8 +48,8 @@ public:
     [[nodiscard]] solids::Where where_in_operand(std::size_t operand, Vec3 p) const {
         return where(p, operand == 0 ? 0 : ends_[operand - 1], ends_[operand]);
     }
-    /// Whether a point lies on the boundary of a face's leaf.
-    [[nodiscard]] bool is_on(const Face& face, Vec3 p) const;
+    /// Whether a point lies on the boundary of a face's leaf, or within `margin` of it.
+    [[nodiscard]] bool is_on(const Face& face, Vec3 p, double margin = 0.0) const;
     /// "the top of the block"
     [[nodiscard]] std::string name_of(const Face& face) const;
 

@@ -78,9 +78,9 @@ private:
         }
         return out;
     }
-    [[nodiscard]] Sectors sectors(const EdgeCurve& edge, double t,
-                                  std::size_t operand = kBody) const {
-        double step = 0x1p-14 * reach_;
+    [[nodiscard]] Sectors sectors(const EdgeCurve& edge, double t, std::size_t operand = kBody,
+                                  double most = Aabb::kInf) const {
+        double step = std::min(most, 0x1p-14 * reach_);
         for (const SectionCurve* c : {&edge.a, &edge.b}) {
             if (!c->is_line) step = std::min(step, 0x1p-14 * c->radius);
         }
@@ -110,7 +110,11 @@ private:
             if (f == i || f == k || overlap(leaf_of(f).near, reach).empty()) continue;
             crossings.clear();
             append_crossings(edge, edge.at, body_.faces()[f].surface, lo, hi, crossings);
-            for (const double at : crossings) marks_.push_back({at, f});
+            // A surface goes on beyond the face, where nothing of it is met.
+            for (const double at : crossings) {
+                if (body_.is_on(body_.faces()[f], edge.point(at), 0x1p-20 * reach_))
+                    marks_.push_back({at, f});
+            }
         }
         std::sort(marks_.begin(), marks_.end(),
                   [](const Mark& a, const Mark& b) { return a.at < b.at; });
@@ -124,7 +128,9 @@ private:
         double from = lo;
         const auto add = [&](double to) {
             if (!(to - from > tiny)) return;
-            const Sectors now = sectors(edge, 0.5 * (from + to));
+            // In a short stretch surfaces that go apart slowly are not far apart yet.
+            const double step = 0x1p-14 * (to - from) * edge.speed();
+            const Sectors now = sectors(edge, 0.5 * (from + to), kBody, step);
             if (!stretches.empty() && stretches.back().sectors == now) {
                 stretches.back().hi = to;
             } else {

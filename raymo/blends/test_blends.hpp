@@ -111,6 +111,8 @@ inline double integral(double a, double b, const Function& f) {
     return sum * kPi * kStep * (b - a);
 }
 
-inline doctest::Approx near(double x) { return doctest::Approx(x).scale(0.0).epsilon(1e-9); }
+inline doctest::Approx near(double x) {
+    return doctest::Approx(x).scale(x == 0.0 ? 1.0 : 0.0).epsilon(1e-9);
+}
 
 }  // namespace raymo::blends::test

@@ -1,0 +1,245 @@
+// Where blended edges end: corners of balls, mitres, chains of tangent edges, blends of blends.
+#include "raymo/blends/test_blends.hpp"
+
+namespace raymo::blends {
+namespace {
+
+using namespace test;
+
+csg::Solid unite(std::vector<csg::Solid> s) { return csg::boolean(csg::Op::unite, std::move(s)); }
+csg::Solid cut(csg::Solid a, csg::Solid b) {
+    return csg::boolean(csg::Op::difference, {std::move(a), std::move(b)});
+}
+
+/// Height of a fillet, and depth of a round, at a distance u from the edge on a face; at right angles.
+double rise(double r, double u) { return u >= r ? 0.0 : r - std::sqrt(r * r - (r - u) * (r - u)); }
+
+/// Top of the solid on an upright line.
+double top(Traced& solid, double x, double y) {
+    const auto& spans = solid.along({x, y, 0}, {0, 0, 1});
+    REQUIRE(!spans.empty());
+    return spans.back().exit.t;
+}
+
+TEST_CASE("vertices: a boss on a plate has a fillet around it, mitred at its edges") {
+    const double r = 0.5;
+    const csg::Solid plate = move(block(10, 10, 1), {-5, -5, -1});
+    const csg::Solid boss = move(block(2, 4, 2), {-1, -2, -0.5});
+    Traced solid(blended(csg::Op::unite, {plate, boss}, ball(r), 4));
+    for (double u = -0.25; u < 0.7; u += 0.0499) {
+        for (double v = -0.25; v < 0.7; v += 0.0497) {
+            CAPTURE(u);
+            CAPTURE(v);
+            const double expected = u < 0.0 && v < 0.0 ? 1.5 : rise(r, std::max(u, v));
+            for (const double x : {-1.0, 1.0}) {
+                for (const double y : {-1.0, 1.0})
+                    CHECK(top(solid, x * (1 + u), y * (2 + v)) == near(expected));
+            }
+        }
+    }
+}
+
+TEST_CASE("vertices: the rim of a pocket is rounded, mitred in its corners") {
+    const double r = 0.5;
+    const csg::Solid body = move(block(10, 10, 3), {-5, -5, -3});
+    const csg::Solid pocket = move(block(2, 4, 2), {-1, -2, -1});
+    Traced solid(blended(csg::Op::difference, {body, pocket}, ball(r), 4));
+    for (double u = -0.25; u < 0.7; u += 0.0499) {
+        for (double v = -0.25; v < 0.7; v += 0.0497) {
+            CAPTURE(u);
+            CAPTURE(v);
+            const double expected = u < 0.0 && v < 0.0 ? -1.0 : -rise(r, std::max(u, v));
+            CHECK(top(solid, 1 + u, 2 + v) == near(expected));
+            CHECK(top(solid, -1 - u, 2 + v) == near(expected));
+        }
+    }
+}
+
+TEST_CASE("vertices: a pocket's own edges are filled up to a ball") {
+    const double r = 0.4;
+    const csg::Solid pocketed =
+        cut(move(block(10, 10, 3), {-5, -5, -3}), move(block(2, 4, 2), {-1, -2, -1}));
+    Traced solid(blended(pocketed, Edges::concave, ball(r), 8));
+    // The pocket is what balls in it cover: those with their centres in the smaller block.
+    for (double x = -1.09; x < 1.1; x += 0.0501) {
+        for (double y = -2.09; y < -1.4; y += 0.0499) {
+            for (double z = -1.09; z < -0.4; z += 0.0503) {
+                const Vec3 p{x, y, z};
+                const Vec3 c{std::clamp(x, -1 + r, 1 - r), std::clamp(y, -2 + r, 2 - r),
+                             std::max(z, -1 + r)};
+                const double off = norm(p - c) - r;
+                if (std::fabs(off) < 1e-9) continue;
+                CAPTURE(p.x);
+                CAPTURE(p.y);
+                CAPTURE(p.z);
+                CHECK((solid.where(p) == solids::Where::out) == (off < 0.0));
+            }
+        }
+    }
+}
+
+TEST_CASE("vertices: an angle bar, filled, and rounded all around") {
+    const double r = 0.3;
+    const csg::Solid bar = unite({block(4, 1, 3), block(1, 4, 3)});
+    {
+        Traced solid(blended(bar, Edges::concave, ball(r), 1));
+        for (double u = 0.013; u < 0.5; u += 0.05) {
+            for (double v = 0.011; v < 0.5; v += 0.05) {
+                const double chord = solid.chord({1 + u, 1 + v, -9}, {0, 0, 1});
+                CHECK(chord == near(v < rise(r, u) ? 3.0 : 0.0));
+            }
+        }
+    }
+    // Convex: at both ends 6 edges, and 5 upright.
+    Traced solid(blended(bar, Edges::convex, ball(r), 17));
+    for (double u = -0.513; u < 0.5; u += 0.05) {
+        for (double v = -0.511; v < 0.5; v += 0.05) {
+            // From the inner corner, which stays sharp, into the bar.
+            if (u > 0.0 && v > 0.0) continue;
+            const double into = u > 0.0 ? -v : v > 0.0 ? -u : std::max(-u, -v);
+            CAPTURE(u);
+            CAPTURE(v);
+            CHECK(top(solid, 1 + u, 1 + v) == near(3.0 - rise(r, into)));
+        }
+    }
+    // At the outer corner a ball.
+    for (double x = 0.01; x < 0.4; x += 0.03) {
+        for (double y = 0.01; y < 0.4; y += 0.03) {
+            const double dx = std::max(r - x, 0.0);
+            const double dy = std::max(r - y, 0.0);
+            const double square = r * r - dx * dx - dy * dy;
+            const double chord = solid.chord({x, y, -9}, {0, 0, 1});
+            CHECK(chord == near(square > 0 ? 3.0 - 2 * r + 2 * std::sqrt(square) : 0.0));
+        }
+    }
+}
+
+TEST_CASE("vertices: blends of blends: a peg with a rounded rim and a fillet") {
+    const double big = 2.0, r = 0.5, rim = 0.7, h = 3.0;
+    const csg::Solid plate = move(block(12, 12, 1), {-6, -6, -1});
+    const csg::Solid peg = move(cylinder(big, h + 0.5), {0, 0, -0.5});
+    Form only_top = ball(rim);
+    only_top.near = Vec3{0, 0, h};
+    const csg::Solid round_peg = blended(peg, Edges::convex, only_top, 1);
+    Form base = ball(r);
+    const csg::Solid first = blended(csg::Op::unite, {plate, round_peg}, base, 1);
+    only_top.near = Vec3{big, 0, h};
+    const csg::Solid second =
+        blended(blended(csg::Op::unite, {plate, peg}, base, 1), Edges::convex, only_top, 1);
+    for (const csg::Solid& s : {first, second}) {
+        Traced solid(s);
+        for (double z = 0.0123; z < h; z += 0.0456) {
+            double expected = big;
+            if (z < r) expected += rise(r, z);
+            if (z > h - rim) expected -= rise(rim, h - z);
+            CHECK(0.5 * solid.chord({-20, 0, z}, {1, 0, 0}) == near(expected));
+        }
+    }
+}
+
+TEST_CASE("vertices: a fillet follows a chain of tangent edges") {
+    const double r = 0.4, corner = 0.6;
+    const csg::Solid plate = move(block(10, 10, 1), {-5, -5, -1});
+    const csg::Solid boss = move(block(3, 4, 2.5), {-1.5, -2, -0.5});
+    Form upright = ball(corner);
+    upright.where = move(block(9, 9, 0.5), {-4.5, -4.5, 0.6});
+    const csg::Solid pill = blended(boss, Edges::convex, upright, 4);
+    Traced solid(blended(csg::Op::unite, {plate, pill}, ball(r), 8));
+    for (double x = 0.507; x < 2.2; x += 0.0613) {
+        for (double y = 1.003; y < 2.7; y += 0.0617) {
+            CAPTURE(x);
+            CAPTURE(y);
+            // Distance from the rounded rectangle.
+            const double dx = std::max(x - (1.5 - corner), 0.0);
+            const double dy = std::max(y - (2.0 - corner), 0.0);
+            const double d = std::hypot(dx, dy) - corner;
+            CHECK(top(solid, x, y) == near(d < 0.0 ? 2.0 : rise(r, d)));
+        }
+    }
+    // And the rim of it all.
+    Form rim = ball(0.3);
+    rim.where = move(block(9, 9, 0.5), {-4.5, -4.5, 1.9});
+    Traced both(blended(blended(csg::Op::unite, {plate, pill}, ball(r), 8), Edges::convex, rim, 8));
+    for (double x = 0.507; x < 1.5; x += 0.0613) {
+        for (double y = 1.003; y < 2.0; y += 0.0617) {
+            const double dx = std::max(x - (1.5 - corner), 0.0);
+            const double dy = std::max(y - (2.0 - corner), 0.0);
+            const double d = corner - std::hypot(dx, dy);
+            if (d < 0.0) continue;
+            CAPTURE(x);
+            CAPTURE(y);
+            CHECK(top(both, x, y) == near(2.0 - rise(0.3, d)));
+        }
+    }
+}
+
+TEST_CASE("vertices: three operands meet in a ball, of space and of material") {
+    const double r = 0.8;
+    const auto slab = [](int axis) {
+        const csg::Solid s = move(block(14, 14, 4), {-4, -4, -4});
+        return axis == 2 ? s : turn(s, Vec3{1, 1, 1} / std::sqrt(3.0), axis == 0 ? 120 : 240);
+    };
+    const std::vector<csg::Solid> slabs{slab(0), slab(1), slab(2)};
+    Traced inner(blended(csg::Op::unite, slabs, ball(r), 3));
+    // The other edges are edges of the slabs themselves.
+    Traced outer(blended(csg::Op::intersection, slabs, ball(r), 3));
+    for (double x = 0.013; x < 1.2; x += 0.0601) {
+        for (double y = 0.011; y < 1.2; y += 0.0603) {
+            for (double z = 0.017; z < 1.2; z += 0.0607) {
+                const Vec3 p{x, y, z};
+                const double d = norm(p - max(p, Vec3{r, r, r}));
+                if (std::fabs(d - r) < 1e-9) continue;
+                CAPTURE(x);
+                CAPTURE(y);
+                CAPTURE(z);
+                CHECK((inner.where(p) == solids::Where::in) == (d > r));
+                CHECK((outer.where(-p) == solids::Where::in) == (d < r));
+            }
+        }
+    }
+}
+
+/// A cube with a filleted boss and a rounded notch, so that the fillet's corner and the round's are one.
+csg::Solid meeting(const Affine& map, double scale, std::size_t& edges) {
+    const auto placed = [&](csg::Solid s) { return mapped(std::move(s), map); };
+    Form form = ball(0.25 * scale);
+    auto bossed = blends::blended(
+        csg::Op::unite, {placed(block(4, 4, 4)), placed(move(block(1.5, 1.5, 1.5), {1, 1, 3.5}))},
+        form);
+    REQUIRE(bossed.has_value());
+    form.radius = 0.2 * scale;
+    auto notched =
+        blends::blended(csg::Op::difference,
+                        {bossed->solid, placed(move(block(2, 2, 1), {2.95, 2.95, 3.25}))}, form);
+    if (!notched) FAIL(notched.error().message << notched.error().hint);
+    edges = bossed->edges + notched->edges;
+    return notched->solid;
+}
+
+TEST_CASE("vertices: a filleted boss and a rounded notch meet; in every frame alike") {
+    std::size_t edges = 0;
+    Traced here(meeting({}, 1, edges));
+    CHECK(edges > 4);
+    const Affine maps[] = {
+        reflection({1, 0, 0}),          reflection({1, 2, 3}),
+        scaling({1e-3, 1e-3, 1e-3}),    scaling({1e3, 1e3, 1e3}),
+        rotation(unit({1, 2, -1}), 77), translation({1e4, -1e4, 3e3}) * rotation({0, 0, 1}, 90),
+    };
+    for (const Affine& map : maps) {
+        const double scale = norm(map.linear.column(0));
+        std::size_t there_edges = 0;
+        Traced there(meeting(map, scale, there_edges));
+        CHECK(edges == there_edges);
+        std::size_t differences = 0;
+        for (int i = 0; i < 20000; ++i) {
+            const auto part = [&](double x) { return std::fmod(i * x + 0.5, 1.0); };
+            const Vec3 p = Vec3{1.5, 1.5, 2.5} +
+                           2.5 * Vec3{part(0.8191725134), part(0.6710436067), part(0.5497004779)};
+            differences += here.where(p) != there.where(map(p)) ? 1 : 0;
+        }
+        CHECK(differences == 0);
+    }
+}
+
+}  // namespace
+}  // namespace raymo::blends
