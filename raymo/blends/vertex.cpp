@@ -260,7 +260,14 @@ Result<csg::Solid> ball_corner(const std::array<Vec3, 3>& to_contact, Vec3 c, do
         if (!block) return block;
         return csg::boolean(csg::Op::difference, {std::move(*block), std::move(*ball)}, span);
     }
-    std::vector<csg::Solid> sides;
+    // Its tip is where the three planes at the contacts meet. Oblique planes have no box; a block has.
+    const Mat3 contacts{{to_contact[0], to_contact[1], to_contact[2]}};
+    const double reach = size + norm(inverse(contacts) * Vec3{size, size, size});
+    auto around = make<solids::Block>({Vec3{reach, reach, reach} * 2.0, true}, span);
+    if (!around) return around;
+    around = csg::transform(std::move(*around), translation(c), span);
+    if (!around) return around;
+    std::vector<csg::Solid> sides{std::move(*around)};
     for (std::size_t i = 0; i < 3; ++i) {
         const Vec3 p = to_contact[i];
         const Vec3 q = to_contact[(i + 1) % 3];

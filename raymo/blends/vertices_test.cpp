@@ -199,6 +199,42 @@ TEST_CASE("vertices: three operands meet in a ball, of space and of material") {
     }
 }
 
+TEST_CASE("vertices: a ball in a corner of oblique planes, in any frame") {
+    // A floor, and walls that lean inwards by 20 and outwards by 15 degrees.
+    const double r = 0.8;
+    const csg::Solid floor = move(block(20, 20, 2), {-10, -10, -2});
+    const csg::Solid inward = turn(move(block(2, 20, 20), {-2, -10, -10}), {0, 1, 0}, 20);
+    const csg::Solid outward = turn(move(block(20, 2, 20), {-10, -2, -10}), {1, 0, 0}, 15);
+    const Vec3 normals[] = {{0, 0, 1},
+                            {std::cos(kPi / 9), 0, -std::sin(kPi / 9)},
+                            {0, std::cos(kPi / 12), std::sin(kPi / 12)}};
+    const Affine map = rotation(unit({1, -2, 3}), 40);
+    std::vector<csg::Solid> operands;
+    for (const csg::Solid& s : {floor, inward, outward}) operands.push_back(mapped(s, map));
+    Form form = ball(r);
+    // Only in the room.
+    form.where = mapped(move(block(8, 8, 9), {-0.3, -1.5, -1}), map);
+    Traced solid(blended(csg::Op::unite, operands, form, 3));
+    // The centre is r away from all planes, and from two of them along the edges.
+    const Mat3 planes{{normals[0], normals[1], normals[2]}};
+    const Vec3 centre = inverse(planes) * Vec3{r, r, r};
+    std::size_t judged = 0;
+    for (double x = -1.0; x < 1.0; x += 0.0601) {
+        for (double y = -1.0; y < 1.0; y += 0.0603) {
+            for (double z = -1.0; z < 1.0; z += 0.0607) {
+                // Within the cone of the three contacts, seen from the centre, and in the room.
+                const Vec3 d{x, y, z};
+                const Vec3 share = transposed_times(inverse(planes), -d);
+                if (share.x < 1e-6 || share.y < 1e-6 || share.z < 1e-6) continue;
+                if (std::fabs(norm(d) - r) < 1e-9) continue;
+                ++judged;
+                CHECK((solid.where(map(centre + d)) == solids::Where::in) == (norm(d) > r));
+            }
+        }
+    }
+    CHECK(judged > 1000);
+}
+
 /// A cube with a filleted boss and a rounded notch, so that the fillet's corner and the round's are one.
 csg::Solid meeting(const Affine& map, double scale, std::size_t& edges) {
     const auto placed = [&](csg::Solid s) { return mapped(std::move(s), map); };
