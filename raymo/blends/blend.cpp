@@ -120,7 +120,8 @@ Result<void> check_known(const Body& body, bool within_operands, double radius) 
 }
 
 Result<Blended> blend(const Body& body, csg::Solid sharp, bool within_operands,
-                      std::optional<Edges> only, const Form& form, SourceSpan span) {
+                      std::optional<Edges> only, const Form& form, SourceSpan span,
+                      const Spend& spend) {
     if (!body.box().bounded()) {
         return fail(ErrorCode::unbounded, "an unbounded solid can not be blended",
                     "intersect it with something finite first");
@@ -128,7 +129,11 @@ Result<Blended> blend(const Body& body, csg::Solid sharp, bool within_operands,
     if (body.box().empty()) return Blended{std::move(sharp), 0};
     if (auto known = check_known(body, within_operands, form.radius); !known)
         return Failure(std::move(known).error());
-    std::vector<Segment> segments = find_segments(body, within_operands, form.radius);
+    auto found = find_segments(body, within_operands, form.radius, spend);
+    if (!found) return Failure(std::move(found).error());
+    std::vector<Segment>& segments = *found;
+    const auto go_on = [&](double work) { return !spend || spend(work); };
+    const Failure stopped = fail(ErrorCode::cancelled, "stopped");
     if (only) {
         std::erase_if(segments,
                       [&](const Segment& s) { return s.is_convex != (*only == Edges::convex); });
@@ -137,6 +142,7 @@ Result<Blended> blend(const Body& body, csg::Solid sharp, bool within_operands,
 
     std::vector<Job> jobs;
     for (Segment& segment : segments) {
+        if (!go_on(static_cast<double>(body.faces().size()) + 64.0)) return stopped;
         const Fitting fitting = fitting_of(body, segment, form.radius);
         if (fitting.fit != Fit::good) return does_not_fit(body, segment, fitting, form.radius);
         Job job;
@@ -146,10 +152,12 @@ Result<Blended> blend(const Body& body, csg::Solid sharp, bool within_operands,
     }
     std::vector<std::array<EndPlan, 2>> plans(jobs.size());
     for (std::size_t i = 0; i < jobs.size(); ++i) {
+        if (!go_on(static_cast<double>(jobs.size()) * 0.1)) return stopped;
         if (jobs[i].segment.is_closed) continue;
         for (std::size_t end = 0; end < 2; ++end) plans[i][end] = plan_of(body, jobs, i, end);
     }
     for (std::size_t i = 0; i < jobs.size(); ++i) {
+        if (!go_on(jobs[i].segment.space ? 1e6 : 10.0)) return stopped;
         extend(body, jobs, i, form.radius, plans[i]);
         const Segment& segment = jobs[i].segment;
         if (segment.space && form.profile != Profile::ball) {
@@ -193,18 +201,18 @@ Result<Blended> blend(const Body& body, csg::Solid sharp, bool within_operands,
 }  // namespace
 
 Result<Blended> blended(csg::Op op, std::vector<csg::Solid> operands, const Form& form,
-                        SourceSpan span) {
+                        SourceSpan span, const Spend& spend) {
     auto body = Body::make(op, operands);
     if (!body) return Failure(std::move(body).error());
     csg::Solid sharp = csg::boolean(op, std::move(operands), span);
-    return blend(*body, std::move(sharp), false, std::nullopt, form, span);
+    return blend(*body, std::move(sharp), false, std::nullopt, form, span, spend);
 }
 
 Result<Blended> blended_edges(const csg::Solid& solid, Edges edges, const Form& form,
-                              SourceSpan span) {
+                              SourceSpan span, const Spend& spend) {
     auto body = Body::make(csg::Op::unite, {solid});
     if (!body) return Failure(std::move(body).error());
-    return blend(*body, solid, true, edges, form, span);
+    return blend(*body, solid, true, edges, form, span, spend);
 }
 
 }  // namespace raymo::blends

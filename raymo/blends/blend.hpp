@@ -15,6 +15,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -38,6 +39,9 @@ struct Form {
     csg::Solid where;          ///< if any: only edges with their middle inside
 };
 
+/// Called with work that has been done, in units of some 100 ns; false: stop, with the error `cancelled`. May be empty.
+using Spend = std::function<bool(double)>;
+
 struct Blended {
     csg::Solid solid;
     std::size_t edges = 0;  ///< blended; 0: the Boolean is as it was
@@ -47,11 +51,12 @@ struct Blended {
 /// surfaces: radius too large (with the largest that works), faces that can not be blended; unbounded; limit. Cost: about 1 us
 /// for each pair of faces whose boxes meet and each face beside them.
 [[nodiscard]] Result<Blended> blended(csg::Op op, std::vector<csg::Solid> operands,
-                                      const Form& form, SourceSpan span = {});
+                                      const Form& form, SourceSpan span = {},
+                                      const Spend& spend = {});
 
 enum class Edges : std::uint8_t { convex, concave };
 /// The solid with all its edges of one kind blended, between faces of whatever leaves. Errors: as above.
 [[nodiscard]] Result<Blended> blended_edges(const csg::Solid& solid, Edges edges, const Form& form,
-                                            SourceSpan span = {});
+                                            SourceSpan span = {}, const Spend& spend = {});
 
 }  // namespace raymo::blends

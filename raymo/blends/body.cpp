@@ -43,7 +43,7 @@ Result<void> Body::add(const csg::Solid& solid, std::size_t operand) {
             case csg::NodeKind::leaf: {
                 if (leaves_.size() == kMostLeaves) {
                     return fail(ErrorCode::limit, "these solids have too many parts to be blended",
-                                "blend fewer of them at a time; 4096 parts are the most");
+                                "blend fewer of them at a time; 1024 parts are the most");
                 }
                 Leaf leaf;
                 leaf.solid = current;

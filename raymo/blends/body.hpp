@@ -36,7 +36,7 @@ class Body {
 public:
     /// `operands` joined by `op`. Error: limit, when there are more than kMostLeaves.
     [[nodiscard]] static Result<Body> make(csg::Op op, const std::vector<csg::Solid>& operands);
-    static constexpr std::size_t kMostLeaves = 4096;
+    static constexpr std::size_t kMostLeaves = 1024;
 
     [[nodiscard]] const std::vector<Leaf>& leaves() const { return leaves_; }
     [[nodiscard]] const std::vector<Face>& faces() const { return faces_; }

@@ -26,10 +26,19 @@ public:
     Search(const Body& body, bool within_operands, double reach)
         : body_(body), within_operands_(within_operands), reach_(reach) {}
 
-    std::vector<Segment> run() {
-        const auto& faces = body_.faces();
-        for (std::size_t i = 0; i < faces.size(); ++i) {
-            for (std::size_t k = i + 1; k < faces.size(); ++k) pair(i, k);
+    Result<std::vector<Segment>> run(const Spend& spend) {
+        const auto& leaves = body_.leaves();
+        for (std::size_t p = 0; p < leaves.size(); ++p) {
+            for (std::size_t q = p; q < leaves.size(); ++q) {
+                if (!within_operands_ && leaves[p].operand == leaves[q].operand) continue;
+                if (overlap(overlap(leaves[p].near, leaves[q].near), grown(body_.box(), reach_))
+                        .empty()) {
+                    continue;
+                }
+                work_ = 1.0;
+                pairs(leaves[p], leaves[q]);
+                if (spend && !spend(work_)) return fail(ErrorCode::cancelled, "stopped");
+            }
         }
         return std::move(segments_);
     }
@@ -39,10 +48,16 @@ private:
         return body_.leaves()[body_.faces()[face].leaf];
     }
 
+    void pairs(const Leaf& p, const Leaf& q) {
+        for (std::size_t i = p.first_face; i < p.first_face + p.face_count; ++i) {
+            const std::size_t first = &p == &q ? i + 1 : q.first_face;
+            for (std::size_t k = first; k < q.first_face + q.face_count; ++k) pair(i, k);
+        }
+    }
+
     void pair(std::size_t i, std::size_t k) {
         const Leaf& p = leaf_of(i);
         const Leaf& q = leaf_of(k);
-        if (!within_operands_ && p.operand == q.operand) return;
         const double margin = 0x1p-20 * reach_;
         const Aabb box = grown(body_.box(), margin);
         const Aabb shared = overlap(overlap(grown(p.box, margin), grown(q.box, margin)), box);
@@ -109,6 +124,7 @@ private:
         for (std::size_t f = 0; f < body_.faces().size(); ++f) {
             if (f == i || f == k || overlap(leaf_of(f).near, reach).empty()) continue;
             crossings.clear();
+            work_ += 4.0;
             append_crossings(edge, edge.at, body_.faces()[f].surface, lo, hi, crossings);
             // A surface goes on beyond the face, where nothing of it is met.
             for (const double at : crossings) {
@@ -138,6 +154,7 @@ private:
             }
             from = to;
         };
+        if (!is_edge_somewhere(edge, i, k, lo, hi)) return;
         for (const Mark& mark : marks_) add(mark.at);
         add(hi);
         if (stretches.empty()) return;
@@ -173,6 +190,23 @@ private:
             set_end(segment, 1, segment.hi, after, tiny);
             keep(std::move(segment));
         }
+    }
+
+    /// Whether both faces' leaves have their boundaries in the middle of one of the stretches: most pairs have not.
+    bool is_edge_somewhere(const EdgeCurve& edge, std::size_t i, std::size_t k, double lo,
+                           double hi) {
+        double from = lo;
+        for (std::size_t m = 0; m <= marks_.size(); ++m) {
+            const double to = m < marks_.size() ? marks_[m].at : hi;
+            const Vec3 p = edge.point(0.5 * (from + to));
+            work_ += 1.0;
+            if (body_.is_on(body_.faces()[i], p) && body_.is_on(body_.faces()[k], p)) {
+                work_ += static_cast<double>(marks_.size() * body_.leaves().size());
+                return true;
+            }
+            from = to;
+        }
+        return false;
     }
 
     static Aabb box_of(const EdgeCurve& edge, double lo, double hi) {
@@ -275,6 +309,8 @@ private:
     /// Unless there is one already: of faces that lie in the same surface.
     void keep(Segment segment) {
         const Vec3 here = segment.point(segment.middle());
+        segment.centre = here;
+        work_ += 0.1 * static_cast<double>(segments_.size());
         const Vec3 n = outward(segment, 0, here);
         for (const Segment& other : segments_) {
             if (other.is_convex != segment.is_convex || !other.space != !segment.space) continue;
@@ -289,7 +325,7 @@ private:
         segments_.push_back(std::move(segment));
     }
     static double distance_to(const Segment& segment, Vec3 p) {
-        if (!segment.space || !segment.is_closed) return norm(segment.point(segment.middle()) - p);
+        if (!segment.space || !segment.is_closed) return norm(segment.centre - p);
         double least = Aabb::kInf;
         for (double t = 0.0; t < segment.hi; t += 1.0)
             least = std::min(least, norm(segment.point(t) - p));
@@ -299,6 +335,7 @@ private:
     /// Stretches of a curve in space: between its nodes nothing begins and ends unseen but what is shorter than a step.
     void along_space(const SpaceEdgePtr& edge, std::size_t i, std::size_t k) {
         const auto n = static_cast<std::size_t>(edge->last());
+        work_ += static_cast<double>(n) * (100.0 + static_cast<double>(body_.leaves().size()));
         std::vector<Sectors> at(n);
         for (std::size_t s = 0; s < n; ++s) {
             at[s] = sectors(*edge, i, k, static_cast<double>(s) + 0.5);
@@ -364,6 +401,7 @@ private:
     const Body& body_;
     bool within_operands_;
     double reach_;
+    double work_ = 0.0;  ///< since it was last told
     std::vector<Mark> marks_;
     std::vector<Segment> segments_;
 };
@@ -372,8 +410,9 @@ private:
 
 double Segment::period() const { return space ? space->last() : kTurn; }
 
-std::vector<Segment> find_segments(const Body& body, bool within_operands, double reach) {
-    return Search(body, within_operands, reach).run();
+Result<std::vector<Segment>> find_segments(const Body& body, bool within_operands, double reach,
+                                           const Spend& spend) {
+    return Search(body, within_operands, reach).run(spend);
 }
 
 }  // namespace raymo::blends

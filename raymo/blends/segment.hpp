@@ -33,6 +33,7 @@ struct Segment {
     bool is_closed = false;  ///< runs back into itself
     double lo = 0.0, hi = 0.0;
     End ends[2];  ///< unless closed
+    Vec3 centre;  ///< its point at the middle parameter
 
     [[nodiscard]] Vec3 point(double t) const { return space ? space->point(t) : edge.point(t); }
     /// Unit; the way in which the parameter grows.
@@ -50,8 +51,8 @@ struct Segment {
 };
 
 /// All stretches between faces of different operands, or of all faces. `reach`: the size of what is to be blended, for how close
-/// to an edge its sectors are looked at. The box of the body must be bounded.
-[[nodiscard]] std::vector<Segment> find_segments(const Body& body, bool within_operands,
-                                                 double reach);
+/// to an edge its sectors are looked at. The box of the body must be bounded. Error: cancelled, by `spend`.
+[[nodiscard]] Result<std::vector<Segment>> find_segments(const Body& body, bool within_operands,
+                                                         double reach, const Spend& spend = {});
 
 }  // namespace raymo::blends

@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <array>
+#include <utility>
 
 #include "raymo/sml/text.hpp"
 
@@ -15,7 +16,8 @@ bool all_edges(Call& call, blends::Edges edges, Value& out) {
     csg::Solid solid;
     blends::Form form;
     if (!call.solid(0, solid) || !take_blend(call, kOfSolid, form)) return false;
-    return give_blend(call, kOfSolid, blends::blended_edges(solid, edges, form, call.span()), out);
+    return give_blend(call, kOfSolid,
+                      blends::blended_edges(solid, edges, form, call.span(), spend_on(call)), out);
 }
 
 bool rounded(Call& call, Value& out) { return all_edges(call, blends::Edges::convex, out); }
@@ -55,8 +57,19 @@ bool take_blend(Call& call, const BlendSlots& slots, blends::Form& form) {
     return !call.has(where) || call.solid(where, form.where);
 }
 
+blends::Spend spend_on(Call& call) {
+    // Told in lumps, since what is small counts as one step.
+    return [&call, lump = 0.0](double units) mutable {
+        lump += units;
+        if (lump < 1e4) return true;
+        return call.evaluator().worked(std::exchange(lump, 0.0), call.node());
+    };
+}
+
 bool give_blend(Call& call, const BlendSlots& slots, Result<blends::Blended> made, Value& out) {
     if (!made) {
+        // A limit has told its own error.
+        if (made.error().code == ErrorCode::cancelled) return false;
         Error error = std::move(made).error();
         error.where = call.where(slots.radius);
         error.message = call.name() + ": " + error.message;

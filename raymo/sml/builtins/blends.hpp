@@ -13,6 +13,8 @@ struct BlendSlots {
 };
 /// Takes them. False: one is wrong, and the error is reported.
 bool take_blend(Call& call, const BlendSlots& slots, blends::Form& form);
+/// Lets a blend be stopped by the limits of the program.
+[[nodiscard]] blends::Spend spend_on(Call& call);
 /// What came of a blend, with a warning where no edge was found.
 bool give_blend(Call& call, const BlendSlots& slots, Result<blends::Blended> made, Value& out);
 

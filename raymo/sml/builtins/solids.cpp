@@ -203,7 +203,8 @@ bool boolean(Call& call, csg::Op op, Value& out) {
         return call.fail(ErrorCode::bad_argument, "there are no solids to work on");
     }
     if (is_blended) {
-        return give_blend(call, kBlend, blends::blended(op, std::move(solids), form, call.span()),
+        return give_blend(call, kBlend,
+                          blends::blended(op, std::move(solids), form, call.span(), spend_on(call)),
                           out);
     }
     return call.evaluator().combine(op, std::move(solids), call.node(), call.span(), out);
