@@ -22,6 +22,12 @@ constexpr double kTouch = 0x1p-12;
 
 double size_of(const Aabb& box) { return norm(box.size()); }
 
+/// What a distance from one of the surfaces may be off by.
+double rounding_at(const Surface& a, const Surface& b, Vec3 p) {
+    return 16.0 * kUnitRoundoff *
+           (max_norm(p) + max_norm(p - a.point) + max_norm(p - b.point) + a.radius + b.radius);
+}
+
 std::optional<Vec3> direction(const Surface& a, const Surface& b, Vec3 p) {
     const Vec3 t = cross(a.normal(p), b.normal(p));
     const double sine = norm(t);
@@ -40,7 +46,7 @@ bool to_step(const Surface& a, const Surface& b, Vec3 from, double h, Vec3& p) {
         const Vec3 step = inverse(m) * Vec3{-a.distance(p), -b.distance(p), h - length};
         p = p + step;
         if (!is_finite(p)) return false;
-        if (norm(step) <= 16.0 * kUnitRoundoff * (max_norm(p) + h)) {
+        if (norm(step) <= rounding_at(a, b, p) + 16.0 * kUnitRoundoff * h) {
             return norm(p - from) < 1.5 * h;
         }
     }
@@ -255,7 +261,8 @@ bool to_distances(const Surface& a, double from_a, const Surface& b, double from
         if (!is_finite(p)) return false;
         // Where the surfaces meet at a small angle their roundings count for more.
         const double sine = norm(cross(m.row[0], m.row[1]));
-        const double rounding = 16.0 * kUnitRoundoff * (max_norm(p) + std::fabs(from_a));
+        const double rounding =
+            rounding_at(a, b, p) + 16.0 * kUnitRoundoff * (std::fabs(from_a) + std::fabs(from_b));
         if (norm(step) * sine <= rounding) return true;
     }
     return false;

@@ -1,0 +1,222 @@
+// Blends of surfaces that cross in any position, against their definition (rolled.hpp).
+//
+// Two of the five surfaces get random sizes, places and directions, bounded far away; all edges that they make are blended. The
+// judge does not follow any curve: it knows the balls' centres as thousands of points with both distances equal to the radius, found by
+// Newton's method from random starts, and looks for the nearest centre from the nearest of these.
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "raymo/blends/blend.hpp"
+#include "raymo/query/locate.hpp"
+#include "raymo/trace/tracer.hpp"
+#include "tests/laws/judge.hpp"
+#include "tests/laws/law.hpp"
+#include "tests/laws/rolled.hpp"
+
+namespace raymo::laws {
+namespace {
+
+constexpr double kFar = 16.0;
+constexpr double kNear = 4.0;  ///< what is looked at
+/// Paths of balls are splines to 2^-32 of the radius; positions are of the size of kFar.
+constexpr Real kMargin = 4e-9L;
+
+Real r(double x) { return static_cast<Real>(x); }
+
+struct Operand {
+    ModelPtr model;
+    RealSurface surface;
+};
+
+Operand any_operand(Random& random) {
+    Operand out;
+    RealSurface& s = out.surface;
+    const double size = random.uniform(0.7, 2.0);
+    s.kind = static_cast<RealSurface::Kind>(random.below(5));
+    switch (s.kind) {
+        case RealSurface::plane:
+            out.model = moved(block({4 * kFar, 4 * kFar, kFar}), Vec3{-2 * kFar, -2 * kFar, -kFar});
+            break;
+        case RealSurface::sphere:
+            out.model = sphere(size);
+            s.radius = r(size);
+            break;
+        case RealSurface::cylinder:
+            out.model = cylinder(size, 4 * kFar, true);
+            s.radius = r(size);
+            break;
+        case RealSurface::cone: {
+            const double tangent = random.uniform(0.2, 1.2);
+            out.model = cone(2 * kFar * tangent, 0, 2 * kFar);
+            s.half_angle = std::atan2(r(2 * kFar * tangent), r(2 * kFar));
+            s.axis = {0, 0, -1};
+            s.point.z = r(2 * kFar);
+            const Vec3 down{0, 0, -2 * kFar + random.uniform(0.5, 3.0)};
+            out.model = moved(out.model, down);
+            s.point = s.point + real(down);
+            break;
+        }
+        case RealSurface::torus: {
+            const double tube = size * random.uniform(0.25, 0.7);
+            out.model = torus(size, tube);
+            s.radius = r(size);
+            s.tube = r(tube);
+            break;
+        }
+    }
+    const Affine map =
+        translation(random.in_cube(1.0)) * rotation(random.direction(), random.uniform(0, 360));
+    out.model = moved(out.model, map);
+    s = s.mapped(map);
+    return out;
+}
+
+/// A point with both distances equal to the radius, by the shortest steps.
+bool to_spine(const RealSurface& p, const RealSurface& q, Real radius, RealVec& x) {
+    for (int i = 0; i < 60; ++i) {
+        const RealVec a = p.gradient(x);
+        const RealVec b = q.gradient(x);
+        const Real off_a = radius - p.distance(x);
+        const Real off_b = radius - q.distance(x);
+        const Real cosine = dot(a, b);
+        const Real det = 1 - cosine * cosine;
+        if (!(det > 1e-6L)) return false;
+        const RealVec step =
+            a * ((off_a - cosine * off_b) / det) + b * ((off_b - cosine * off_a) / det);
+        x = x + step;
+        if (!(norm(x) < r(2 * kFar))) return false;
+        if (norm(step) < 1e-17L)
+            return std::fabs(p.distance(x) - radius) < 1e-16L &&
+                   std::fabs(q.distance(x) - radius) < 1e-16L;
+    }
+    return false;
+}
+
+class Crossing {
+public:
+    Crossing(Random& random, Tally& tally) : random_(random), tally_(tally) {}
+
+    /// True if it was blended.
+    bool run(std::uint64_t rays) {
+        a_ = any_operand(random_);
+        b_ = any_operand(random_);
+        op_ = static_cast<csg::Op>(random_.below(3));
+        radius_ = std::pow(10.0, random_.uniform(-1.7, -0.5));
+        blends::Form form;
+        form.radius = radius_;
+        const auto made = blends::blended(op_, {build(a_.model), build(b_.model)}, form);
+        ++tally_.samples;
+        if (!made) {
+            if (made.error().message.empty() || made.error().hint.empty()) fault("gives no reason");
+            return false;
+        }
+        if (made->edges == 0) return false;
+        Rolled rolled(op_ == csg::Op::unite ? a_.surface : a_.surface.complement(),
+                      op_ == csg::Op::intersection ? b_.surface.complement() : b_.surface, 1);
+        Rolled::Spine spine;
+        spine.reach = r(4 * kFar);
+        for (int i = 0; i < 20000 && spine.points.size() < 3000; ++i) {
+            RealVec x = real(random_.in_cube(2 * kNear));
+            if (to_spine(rolled.p(), rolled.q(), r(radius_), x) && norm(x) < r(3 * kNear))
+                spine.points.push_back(x);
+        }
+        if (spine.points.size() < 500) return false;
+        const std::vector<RealVec> cloud = spine.points;
+        rolled.roll(r(radius_), {std::move(spine)});
+        scene::Scene scene;
+        scene.parts.push_back({"crossing", made->solid, {}});
+        const auto compiled = trace::compile(scene);
+        if (!compiled) {
+            fault("can not be compiled");
+            return true;
+        }
+        trace::Tracer tracer(*compiled);
+        query::Locator locator(made->solid);
+        const std::uint64_t faults = tally_.exceptions;
+        for (std::uint64_t i = 0; i < rays && tally_.exceptions == faults; ++i) {
+            ++tally_.rays;
+            const RealVec c =
+                cloud[static_cast<std::size_t>(random_.below(static_cast<int>(cloud.size())))];
+            const RealVec to_a = rolled.p().gradient(c) * Real{-1};
+            const RealVec to_b = rolled.q().gradient(c) * Real{-1};
+            const Real s = r(random_.uniform(-0.3, 1.3));
+            const Real off = r(std::pow(10.0, random_.uniform(-7, 0)));
+            const RealVec target = c + unit(to_a * (1 - s) + to_b * s) *
+                                           (r(radius_) * (random_.chance(0.5) ? 1 + off : 1 - off));
+            const Vec3 at = rounded(target);
+            judge(rolled, real(at), locator.where(at) == query::Where::in, "point");
+            const Vec3 d = random_.direction();
+            const Ray line{at - d * random_.uniform(0, 2), d};
+            tracer.spans(line, spans_);
+            if (spans_.empty()) spans_.resize(1);
+            double last = -2 * kNear;
+            bool was_in = false;
+            const auto between = [&](double to) {
+                const double until = std::min(to, 2 * kNear);
+                if (until > last) {
+                    for (const double f : {1e-6, 0.5, 1 - 1e-6}) {
+                        judge(
+                            rolled,
+                            real(line.origin) + real(line.direction) * r(last + (until - last) * f),
+                            was_in, "ray at");
+                    }
+                }
+                last = std::max(last, until);
+            };
+            for (const trace::PartSpan& span : spans_[0]) {
+                between(span.enter.t);
+                was_in = true;
+                between(span.exit.t);
+                was_in = false;
+            }
+            between(2 * kNear);
+        }
+        return true;
+    }
+
+private:
+    void judge(const Rolled& rolled, RealVec x, bool is_in, const char* what) {
+        if (norm(x) > r(kNear)) return;
+        const Side truth = rolled.closing(x, kMargin);
+        ++tally_.samples;
+        if (truth == Side::unclear) return;
+        if ((truth == Side::in) != ((op_ == csg::Op::unite) == is_in)) {
+            const Vec3 p = rounded(x);
+            char place[120];
+            std::snprintf(place, sizeof place, " [%.17g, %.17g, %.17g] is said to be %s", p.x, p.y,
+                          p.z, is_in ? "in" : "out");
+            fault(std::string(what) + place);
+        }
+    }
+    void fault(const std::string& what) {
+        static constexpr const char* kOps[] = {"union", "difference", "intersection"};
+        char size[40];
+        std::snprintf(size, sizeof size, "%.17g", radius_);
+        tally_.exception(what + ": " + kOps[static_cast<std::size_t>(op_)] + "(" + text(*a_.model) +
+                         ", " + text(*b_.model) + ", blend: " + size + ")");
+    }
+
+    Random& random_;
+    Tally& tally_;
+    Operand a_, b_;
+    csg::Op op_ = csg::Op::unite;
+    double radius_ = 1.0;
+    std::vector<std::vector<trace::PartSpan>> spans_;
+};
+
+void crossings(std::uint64_t rays, Random& random, Tally& tally) {
+    const std::uint64_t count = std::max<std::uint64_t>(rays / 200, 4);
+    std::uint64_t blended = 0;
+    for (std::uint64_t i = 0; i < count; ++i) blended += Crossing(random, tally).run(200) ? 1 : 0;
+                 (unsigned long long)count);
+                 if (8 * blended < count) tally.exception("hardly any pair could be blended");
+}
+
+}  // namespace
+
+void add_crossing_laws(std::vector<Law>& laws) {
+    laws.push_back({"blends: surfaces that cross in any position", 100000, crossings});
+}
+
+}  // namespace raymo::laws
