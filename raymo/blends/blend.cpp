@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "raymo/blends/tube.hpp"
 #include "raymo/blends/vertex.hpp"
@@ -11,13 +12,16 @@
 namespace raymo::blends {
 namespace {
 
+/// Of the body's size: below it what a wedge reaches beyond faces comes near to roundings.
+constexpr double kSmallest = 0x1p-24;
+
 /// The largest radius that fits, rounded down to three digits; 0 when none does.
 double largest_radius(const Body& body, const Segment& segment, double too_large) {
     double lo = 0.0;
     double hi = too_large;
     double tried = too_large;
     // Down to one that fits, then between.
-    for (int i = 0; i < 40 && lo == 0.0; ++i) {
+    for (int i = 0; i < 64 && lo == 0.0; ++i) {
         tried *= 0.5;
         if (fitting_of(body, segment, tried).fit == Fit::good) {
             lo = tried;
@@ -53,7 +57,9 @@ Failure does_not_fit(const Body& body, const Segment& segment, const Fitting& fi
     } else if (fitting.fit == Fit::blocked) {
         message += fmt::format(": {} is in its way", body.name_of(body.faces()[fitting.face]));
     }
-    const double most = largest_radius(body, segment, radius);
+    // Between faces that are nearly flat large balls fit, but not that large ones.
+    const double most =
+        largest_radius(body, segment, std::min(radius, 0x1p20 * max_norm(body.box().size())));
     return fail(ErrorCode::out_of_range, std::move(message),
                 most > 0.0 ? fmt::format("the largest radius that works here is {:g}", most)
                            : "no radius works here: choose other edges with `near` or `where`");
@@ -64,8 +70,19 @@ bool is_inside(const csg::Solid& solid, Vec3 p) {
     return body && body->where(p) != solids::Where::out;
 }
 
-/// Squared distance of a point from a segment, from places along it.
+/// Distance of a point from a segment; along a curve in space from its nearest node or so.
 double distance_to(const Segment& segment, Vec3 p) {
+    if (!segment.space) {
+        const Vec3 d = p - segment.edge.origin;
+        double t = dot(d, segment.edge.along);
+        if (segment.edge.is_circle) {
+            t = std::atan2(dot(d, segment.edge.up), dot(d, segment.edge.across));
+            // The turn nearest to the middle.
+            const double turn = 2.0 * std::numbers::pi;
+            t += turn * std::round((segment.middle() - t) / turn);
+        }
+        return norm(segment.point(std::clamp(t, segment.lo, segment.hi)) - p);
+    }
     constexpr int kPlaces = 256;
     double least = Aabb::kInf;
     for (int i = 0; i <= kPlaces; ++i) {
@@ -127,9 +144,16 @@ Result<Blended> blend(const Body& body, csg::Solid sharp, bool within_operands,
                     "intersect it with something finite first");
     }
     if (body.box().empty()) return Blended{std::move(sharp), 0};
+    const double size = max_norm(body.box().size());
+    if (form.radius < kSmallest * size) {
+        return fail(
+            ErrorCode::out_of_range,
+            fmt::format("a radius of {:g} is lost in a solid of size {:g}", form.radius, size),
+            "take a larger one, or leave the edges sharp");
+    }
     if (auto known = check_known(body, within_operands, form.radius); !known)
         return Failure(std::move(known).error());
-    auto found = find_segments(body, within_operands, form.radius, spend);
+    auto found = find_segments(body, within_operands, std::min(form.radius, size), spend);
     if (!found) return Failure(std::move(found).error());
     std::vector<Segment>& segments = *found;
     const auto go_on = [&](double work) { return !spend || spend(work); };

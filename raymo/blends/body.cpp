@@ -54,7 +54,7 @@ Result<void> Body::add(const csg::Solid& solid, std::size_t operand) {
                 leaf.box = std::visit([&](const auto& kernel) { return kernel.bounds(leaf.map); },
                                       csg::as_leaf(node).solid.kernel);
                 // A point this far outside is out whatever its error.
-                leaf.near = grown(leaf.box, 0x1p-20 * norm(leaf.box.size()));
+                leaf.near = grown(leaf.box, 0x1p-20 * max_norm(leaf.box.size()));
                 add_faces(leaf, static_cast<std::uint32_t>(leaves_.size()), faces_);
                 steps_.push_back(
                     {true, csg::Op::unite, static_cast<std::uint32_t>(leaves_.size())});

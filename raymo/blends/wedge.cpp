@@ -205,6 +205,9 @@ Fitting fitting_of(const Body& body, const Segment& segment, double radius) {
             return f;
         if (const Fitting f = around(body, segment, touch->centre, radius); f.fit != Fit::good)
             return f;
+        // A ball as large as the whole solid may have its foot on another face where that ends.
+        if (body.where(touch->centre) != (segment.is_convex ? Where::in : Where::out))
+            return {Fit::none, 0};
         if (lo == hi) break;
     }
     return {};

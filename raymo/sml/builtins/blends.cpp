@@ -10,7 +10,7 @@
 namespace raymo::sml {
 namespace {
 
-constexpr BlendSlots kOfSolid{1, 2};
+constexpr BlendSlots kOfSolid{1, 2, "`rounded` is for convex edges, `filleted` for concave ones"};
 
 bool all_edges(Call& call, blends::Edges edges, Value& out) {
     csg::Solid solid;
@@ -76,8 +76,7 @@ bool give_blend(Call& call, const BlendSlots& slots, Result<blends::Blended> mad
         return call.fail(std::move(error));
     }
     if (made->edges == 0) {
-        call.warn("there is no edge to blend here",
-                  "blends need faces of different operands that cross each other");
+        call.warn("there is no edge to blend here", std::string(slots.hint));
     }
     return call.result(std::move(made->solid), out);
 }

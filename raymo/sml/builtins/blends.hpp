@@ -1,6 +1,8 @@
 // The arguments of blends, which the Booleans take, too.
 #pragma once
 
+#include <string_view>
+
 #include "raymo/blends/blend.hpp"
 #include "raymo/sml/builtins/call.hpp"
 
@@ -10,6 +12,7 @@ namespace raymo::sml {
 struct BlendSlots {
     std::size_t radius;
     std::size_t others;
+    std::string_view hint;  ///< what to say where no edge was found
 };
 /// Takes them. False: one is wrong, and the error is reported.
 bool take_blend(Call& call, const BlendSlots& slots, blends::Form& form);

@@ -135,7 +135,7 @@ std::size_t blamed(Call& call, const solids::Param& param, std::size_t slot, std
 }
 
 /// Of the Booleans' parameters.
-constexpr BlendSlots kBlend{0, 1};
+constexpr BlendSlots kBlend{0, 1, "blends need faces of different operands that cross each other"};
 
 // union(list), union(a, b, c), and the same for the other Booleans. Without operands: nothing.
 bool boolean(Call& call, csg::Op op, Value& out) {
