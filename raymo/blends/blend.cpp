@@ -113,15 +113,27 @@ csg::Solid painted(csg::Solid solid, csg::MaterialId material, SourceSpan span) 
     return material == csg::kNoMaterial ? solid : csg::paint(std::move(solid), material, span);
 }
 
+/// The box that holds the edges which may be chosen. `chosen`: those that are.
+Aabb choice_of(const Form& form, const std::vector<Segment>& chosen) {
+    Aabb box = form.where ? csg::bounds(form.where) : Aabb::everything();
+    if (form.near && !chosen.empty()) {
+        Aabb around;
+        around.include(*form.near);
+        box = overlap(box, grown(around, distance_to(chosen[0], *form.near)));
+    }
+    return box;
+}
+
 /// What is known of the faces must be enough: an edge that can not be seen would be left sharp without a word.
-Result<void> check_known(const Body& body, bool within_operands, double radius) {
+Result<void> check_known(const Body& body, bool within_operands, double radius,
+                         const Aabb& choice) {
     for (const Leaf& leaf : body.leaves()) {
         if (leaf.unknown.empty()) continue;
         for (const Leaf& other : body.leaves()) {
             if (&leaf == &other ? !within_operands
                                 : !within_operands && leaf.operand == other.operand)
                 continue;
-            if (overlap(grown(leaf.box, radius), other.box).empty()) continue;
+            if (overlap(overlap(grown(leaf.box, radius), other.box), choice).empty()) continue;
             const auto name = [](const Leaf& l) {
                 return solids::inventory()[csg::as_leaf(l.solid.node()).primitive].schema->name;
             };
@@ -151,8 +163,6 @@ Result<Blended> blend(const Body& body, csg::Solid sharp, bool within_operands,
             fmt::format("a radius of {:g} is lost in a solid of size {:g}", form.radius, size),
             "take a larger one, or leave the edges sharp");
     }
-    if (auto known = check_known(body, within_operands, form.radius); !known)
-        return Failure(std::move(known).error());
     auto found = find_segments(body, within_operands, std::min(form.radius, size), spend);
     if (!found) return Failure(std::move(found).error());
     std::vector<Segment>& segments = *found;
@@ -163,6 +173,10 @@ Result<Blended> blend(const Body& body, csg::Solid sharp, bool within_operands,
                       [&](const Segment& s) { return s.is_convex != (*only == Edges::convex); });
     }
     select(segments, form);
+    if (auto known = check_known(body, within_operands, form.radius, choice_of(form, segments));
+        !known) {
+        return Failure(std::move(known).error());
+    }
 
     std::vector<Job> jobs;
     for (Segment& segment : segments) {

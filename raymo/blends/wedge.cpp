@@ -7,6 +7,7 @@
 #include "raymo/blends/conic.hpp"
 #include "raymo/blends/make.hpp"
 #include "raymo/core/assert.hpp"
+#include "raymo/math/tolerance.hpp"
 
 namespace raymo::blends {
 namespace {
@@ -82,7 +83,9 @@ Fitting around(const Body& body, const Segment& segment, Vec3 c, double radius) 
         const Vec3 n = surface.normal(c);
         const Vec3 foot = c - n * d;
         if (!body.is_on(body.faces()[f], foot)) continue;
-        const Vec3 step = n * (0x1p-14 * radius);
+        // No farther than roundings ask for: blends have faces just within those of what they blend.
+        const double size = max_norm(foot) + max_norm(max(abs(body.box().lo), abs(body.box().hi)));
+        const Vec3 step = n * (64.0 * kPointError * size);
         const Where a = body.where(foot - step);
         const Where b = body.where(foot + step);
         if (a != b && a != Where::on && b != Where::on) return {Fit::blocked, f};
