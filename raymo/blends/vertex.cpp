@@ -52,6 +52,24 @@ std::optional<std::size_t> job_of(const Body& body, const std::vector<Job>& jobs
     return std::nullopt;
 }
 
+/// Of an arc of more than half a turn, where one of its ends is cut: what comes beyond the end, up to the middle of the gap
+/// that the arc leaves. Without it a plane would cut the other side of the circle, too. Null for other segments.
+Result<csg::Solid> about_end(const Segment& segment, std::size_t end, SourceSpan span) {
+    const double length = segment.hi - segment.lo;
+    if (segment.space || !segment.edge.is_circle || length <= std::numbers::pi) return csg::Solid{};
+    const double sense = end == 0 ? -1.0 : 1.0;
+    const double at = segment.ends[end].at;
+    const double most = at + sense * 0.5 * (2.0 * std::numbers::pi - length);
+    const EdgeCurve& e = segment.edge;
+    const Vec3 here = -e.turn({1.0, 0.0}, at);
+    const Vec3 there = e.tangent(most) * sense;
+    auto near = make<solids::Halfspace>({here, dot(here, e.origin)}, span);
+    if (!near) return near;
+    auto before = make<solids::Halfspace>({there, dot(there, e.origin)}, span);
+    if (!before) return before;
+    return csg::boolean(csg::Op::intersection, {std::move(*near), std::move(*before)}, span);
+}
+
 /// The part of `wedge` on the segment's own side of a face, and what of `more` there is beyond it.
 Result<csg::Solid> on_own_side(const Body& body, csg::Solid wedge, const Segment& segment,
                                std::size_t end, std::size_t face, double reach,
@@ -63,11 +81,18 @@ Result<csg::Solid> on_own_side(const Body& body, csg::Solid wedge, const Segment
     if (!inner) return inner;
     const Vec3 forth = segment.tangent(segment.ends[end].at) * (end == 0 ? 1.0 : -1.0);
     const bool is_inner = dot(surface.normal(at), forth) < 0.0;
+    const auto about = about_end(segment, end, span);
+    if (!about) return about;
     if (is_inner) {
         csg::Solid kept = more ? csg::boolean(csg::Op::unite, {*inner, more}, span) : *inner;
+        if (*about) {
+            csg::Solid lost = csg::boolean(csg::Op::difference, {*about, std::move(kept)}, span);
+            return csg::boolean(csg::Op::difference, {std::move(wedge), std::move(lost)}, span);
+        }
         return csg::boolean(csg::Op::intersection, {std::move(wedge), std::move(kept)}, span);
     }
     csg::Solid lost = more ? csg::boolean(csg::Op::difference, {*inner, more}, span) : *inner;
+    if (*about) lost = csg::boolean(csg::Op::intersection, {std::move(lost), *about}, span);
     return csg::boolean(csg::Op::difference, {std::move(wedge), std::move(lost)}, span);
 }
 

@@ -235,6 +235,26 @@ TEST_CASE("vertices: a ball in a corner of oblique planes, in any frame") {
     CHECK(judged > 1000);
 }
 
+TEST_CASE("vertices: a rim of more than half a turn is rounded all along") {
+    const double r = 0.3, big = 3.0;
+    const csg::Solid disc = cylinder(big, 2);
+    const csg::Solid arm = move(block(8, 2, 2), {0, -1, 0});
+    const csg::Solid keyhole = unite({disc, arm});
+    Traced sharp(blended(keyhole, Edges::convex, ball(r), 10));
+    Traced filled(
+        blended(blended(csg::Op::unite, {disc, arm}, ball(0.5), 2), Edges::convex, ball(r), 14));
+    for (double angle = 25.0; angle < 336.0; angle += 7.0) {
+        for (const double d : {0.01, 0.1, 0.2, 0.29, 0.31}) {
+            CAPTURE(angle);
+            CAPTURE(d);
+            const double x = (big - d) * std::cos(angle * kPi / 180);
+            const double y = (big - d) * std::sin(angle * kPi / 180);
+            if (angle > 31.0 && angle < 329.0) CHECK(top(filled, x, y) == near(2.0 - rise(r, d)));
+            CHECK(top(sharp, x, y) == near(2.0 - rise(r, d)));
+        }
+    }
+}
+
 /// A cube with a filleted boss and a rounded notch, so that the fillet's corner and the round's are one.
 csg::Solid meeting(const Affine& map, double scale, std::size_t& edges) {
     const auto placed = [&](csg::Solid s) { return mapped(std::move(s), map); };
