@@ -177,7 +177,12 @@ void extend(const Body& body, std::vector<Job>& jobs, std::size_t job, double ra
     const double extent = self.extent;
     for (std::size_t end = 0; end < 2; ++end) {
         const EndPlan& plan = plans[end];
-        if (plan.ending == Ending::flat) continue;
+        if (plan.ending == Ending::flat) {
+            // Faces that touch each other end where a double root is, which is known to half the digits.
+            const double more = 0x1p-20 * extent / s.speed();
+            (end == 0 ? self.lo : self.hi) += end == 0 ? -more : more;
+            continue;
+        }
         const double limit = kLongestRun * extent / s.speed();
         double run = reach_past(body, s, radius, end, body.faces()[plan.face].surface, limit);
         run += 0x1p-10 * extent / s.speed();

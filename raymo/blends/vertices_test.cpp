@@ -1,4 +1,5 @@
 // Where blended edges end: corners of balls, mitres, chains of tangent edges, blends of blends.
+#include "raymo/blends/section.hpp"
 #include "raymo/blends/test_blends.hpp"
 
 namespace raymo::blends {
@@ -251,6 +252,43 @@ TEST_CASE("vertices: a rim of more than half a turn is rounded all along") {
             const double y = (big - d) * std::sin(angle * kPi / 180);
             if (angle > 31.0 && angle < 329.0) CHECK(top(filled, x, y) == near(2.0 - rise(r, d)));
             CHECK(top(sharp, x, y) == near(2.0 - rise(r, d)));
+        }
+    }
+}
+
+/// A prism over a rectangle with round corners, between -a and a, -b and b.
+csg::Solid slot(double a, double b, double corner, double z, double h) {
+    curves::Curve curve;
+    const Vec2 middles[] = {{a - corner, b - corner},
+                            {corner - a, b - corner},
+                            {corner - a, corner - b},
+                            {a - corner, corner - b}};
+    Vec2 out{corner, 0.0};
+    for (std::size_t i = 0; i < 4; ++i) {
+        const Vec2 next{-out.y, out.x};
+        append_arc(curve, middles[i], middles[i] + out, middles[i] + next);
+        curve.spans.push_back(curves::segment(middles[i] + next, middles[(i + 1) % 4] + next));
+        out = next;
+    }
+    curve.closed = true;
+    curves::Outline outline;
+    outline.curves.push_back(std::move(curve));
+    return move(made("prism", {std::make_shared<const curves::Outline>(outline), h, false}),
+                {0, 0, z});
+}
+
+TEST_CASE("vertices: tangent edges leave no fins between their blends") {
+    const double r = 0.8;
+    Traced solid(blended(csg::Op::difference,
+                         {move(block(60, 30, 10), {-30, -15, -10}), slot(10, 4.5, 4, -4, 6)},
+                         ball(r), 8));
+    for (int i = -100; i <= 100; ++i) {
+        // About where the arc begins, a little beyond the rim.
+        const double along = 1e-8 * i;
+        for (const double d : {0.1, 0.3, 0.7}) {
+            CAPTURE(i);
+            CHECK(top(solid, 6 + along, 4.5 + d) == near(-rise(r, d)));
+            CHECK(top(solid, 10 + d, 0.5 + along) == near(-rise(r, d)));
         }
     }
 }
