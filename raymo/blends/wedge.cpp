@@ -71,10 +71,22 @@ Fitting at_contact(const Body& body, const Segment& segment, const Touch& touch,
     return {};
 }
 
-/// Whether another face comes into the ball.
-Fitting around(const Body& body, const Segment& segment, Vec3 c, double radius) {
+/// Whether a face is met at an end of the segment that is within `reach` of t: there the wedge is cut by it.
+bool is_end(const Segment& segment, std::size_t face, double t, double reach) {
+    if (segment.is_closed) return false;
+    return std::any_of(std::begin(segment.ends), std::end(segment.ends), [&](const End& end) {
+        return std::fabs(end.at - t) < reach &&
+               std::find(end.faces.begin(), end.faces.end(), face) != end.faces.end();
+    });
+}
+
+/// Whether another face comes into the ball at parameter t.
+Fitting around(const Body& body, const Segment& segment, Vec3 c, double radius, double t,
+               double margin) {
     for (std::size_t f = 0; f < body.faces().size(); ++f) {
         if (f == segment.face_a || f == segment.face_b) continue;
+        // An oblique one reaches some way along.
+        if (is_end(segment, f, t, 4.0 * margin)) continue;
         const Aabb& box = body.leaves()[body.faces()[f].leaf].box;
         if (!grown(box, radius).contains(c)) continue;
         const Surface& surface = body.faces()[f].surface;
@@ -185,9 +197,9 @@ Fitting fitting_of(const Body& body, const Segment& segment, double radius) {
     }
     double lo = segment.lo;
     double hi = segment.hi;
+    const double margin = extent_of(body, segment, radius) / segment.speed();
     if (!segment.is_closed) {
         // At its ends it is another's concern.
-        const double margin = extent_of(body, segment, radius) / segment.speed();
         lo = std::min(lo + margin, segment.middle());
         hi = std::max(hi - margin, segment.middle());
     }
@@ -206,7 +218,8 @@ Fitting fitting_of(const Body& body, const Segment& segment, double radius) {
         last = touch->centre;
         if (const Fitting f = at_contact(body, segment, *touch, radius); f.fit != Fit::good)
             return f;
-        if (const Fitting f = around(body, segment, touch->centre, radius); f.fit != Fit::good)
+        if (const Fitting f = around(body, segment, touch->centre, radius, t, margin);
+            f.fit != Fit::good)
             return f;
         // A ball as large as the whole solid may have its foot on another face where that ends.
         if (body.where(touch->centre) != (segment.is_convex ? Where::in : Where::out))
