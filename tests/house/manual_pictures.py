@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The pictures of the manual's pages on solids: each is what the program draws of the page's first example.
+"""The pictures of the manual's pages on solids and on blends: each is what the program draws of the page's first example.
 
     manual_pictures.py RAYMO docs/manual            fails where a picture is not that
     manual_pictures.py RAYMO docs/manual --renew    draws anew what is not
@@ -19,6 +19,7 @@ sys.dont_write_bytecode = True
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "bench"))
 from picture import read_png  # pylint: disable=wrong-import-position
 
+OTHERS = ["blends.md"]  # pages beside those on solids
 SIZE = (480, 320)
 MOST_BYTES = 60_000
 MOST_PIXELS = SIZE[0] * SIZE[1] // 10_000
@@ -74,12 +75,13 @@ def main():
     raymo, manual, renew = sys.argv[1], pathlib.Path(sys.argv[2]), sys.argv[3:] == ["--renew"]
     pages = sorted((manual / "solids").glob("*.md"))
     faults = [] if pages else [f"{manual / 'solids'}: has no pages"]
+    pages += [manual / page for page in OTHERS]
     with tempfile.TemporaryDirectory(prefix="raymo-manual-") as folder:
         for page in pages:
             faults.append(fault(raymo, page, manual / "pictures" / f"{page.stem}.png",
                                 pathlib.Path(folder) / "fresh.png", renew))
     for picture in sorted((manual / "pictures").glob("*.png")):
-        if not (manual / "solids" / f"{picture.stem}.md").exists():
+        if picture.stem not in [page.stem for page in pages]:
             faults.append(f"{picture}: belongs to no page")
     faults = [text for text in faults if text]
     for text in faults:
