@@ -209,8 +209,7 @@ void crossings(std::uint64_t rays, Random& random, Tally& tally) {
     const std::uint64_t count = std::max<std::uint64_t>(rays / 200, 4);
     std::uint64_t blended = 0;
     for (std::uint64_t i = 0; i < count; ++i) blended += Crossing(random, tally).run(200) ? 1 : 0;
-                 (unsigned long long)count);
-                 if (8 * blended < count) tally.exception("hardly any pair could be blended");
+    if (8 * blended < count) tally.exception("hardly any pair could be blended");
 }
 
 }  // namespace
