@@ -55,9 +55,14 @@ HWY_INLINE Lanes lane_fma(Lanes a, Lanes b, Lanes c) {
 HWY_INLINE Lanes lane_select(Mask mask, Lanes yes, Lanes no) {
     return Lanes(hn::IfThenElse(mask.m, yes.v, no.v));
 }
-// Written out, so that ties and NaN give the same operand on every machine.
+// The second operand where they tie and where one is NaN, on every machine. That is what x86's own instructions give.
+#if HWY_ARCH_X86 && HWY_TARGET != HWY_EMU128 && HWY_TARGET != HWY_SCALAR
+HWY_INLINE Lanes lane_min(Lanes a, Lanes b) { return Lanes(hn::Min(a.v, b.v)); }
+HWY_INLINE Lanes lane_max(Lanes a, Lanes b) { return Lanes(hn::Max(a.v, b.v)); }
+#else
 HWY_INLINE Lanes lane_min(Lanes a, Lanes b) { return lane_select(a < b, a, b); }
 HWY_INLINE Lanes lane_max(Lanes a, Lanes b) { return lane_select(a > b, a, b); }
+#endif
 HWY_INLINE Lanes lane_copysign(Lanes size, Lanes sign) {
     return Lanes(hn::CopySign(size.v, sign.v));
 }

@@ -5,6 +5,8 @@
 #define HWY_TARGET_INCLUDE "raymo/render/shade.cpp"
 #include "raymo/render/shade.hpp"
 
+#include "raymo/math/targets.hpp"
+//
 #include <hwy/foreach_target.h>  // must stand before highway.h
 #include <hwy/highway.h>
 
@@ -12,7 +14,6 @@
 #include <numbers>
 
 #include "raymo/math/lanes.hpp"
-#include "raymo/math/targets.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace raymo::render {

@@ -10,6 +10,8 @@
 #define HWY_TARGET_INCLUDE "raymo/trace/walk.cpp"
 #include "raymo/trace/walk.hpp"
 
+#include "raymo/math/targets.hpp"
+//
 #include <hwy/foreach_target.h>  // must stand before highway.h
 #include <hwy/highway.h>
 
@@ -18,7 +20,6 @@
 #include <type_traits>
 
 #include "raymo/math/lanes.hpp"
-#include "raymo/math/targets.hpp"
 #include "raymo/math/tolerance.hpp"
 #include "raymo/solids/ray_block.hpp"
 #include "raymo/trace/base_ray.hpp"
