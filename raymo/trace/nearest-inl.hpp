@@ -30,65 +30,105 @@ HWY_INLINE EndInLanes end_at(Lanes shift, Lanes slack, Lanes s, Lanes error, Lan
     return out;
 }
 
-/// Spans of a leaf for the rays from `first` on that are `asked`; returns how many at most. `trouble`: the ray runs in the
-/// boundary, or was left over.
-HWY_INLINE int spans_of(Walker<8>& w, std::uint32_t index, int first, std::uint32_t asked,
-                        SpanInLanes (&spans)[kMostSpansInLanes], Mask& trouble, Lanes& trouble_lo) {
+/// Spans that a kernel gave for some lanes. Their ends on the rays are worked out when they are asked for.
+template <int N>
+struct SpansFound {
+    const LaneSpans<Lanes, Mask, N>& spans;
+    Lanes shift, slack;
+
+    [[nodiscard]] HWY_INLINE int count() const { return N; }
+    [[nodiscard]] HWY_INLINE Mask valid(int k) const { return spans.valid[k]; }
+    [[nodiscard]] HWY_INLINE EndInLanes enter(int k) const {
+        return end_at(shift, slack, spans.enter[k], spans.enter_error[k], spans.enter_face[k]);
+    }
+    [[nodiscard]] HWY_INLINE EndInLanes exit(int k) const {
+        return end_at(shift, slack, spans.exit[k], spans.exit_error[k], spans.exit_face[k]);
+    }
+};
+/// The same of a kernel that answers blocks.
+struct SpansInBlock {
+    const solids::SpanBlock& spans;
+    int first;
+    Lanes shift, slack;
+
+    [[nodiscard]] HWY_INLINE int count() const { return spans.count; }
+    [[nodiscard]] HWY_INLINE Mask valid(int k) const { return mask_of(spans.valid[k] >> first); }
+    [[nodiscard]] HWY_INLINE EndInLanes enter(int k) const { return end(spans.enter, k); }
+    [[nodiscard]] HWY_INLINE EndInLanes exit(int k) const { return end(spans.exit, k); }
+
+private:
+    [[nodiscard]] HWY_INLINE EndInLanes end(const solids::SpanBlock::End& e, int k) const {
+        return end_at(shift, slack, load(e.s[k] + first), load(e.error[k] + first),
+                      load(e.face[k] + first));
+    }
+};
+
+/// Asks a leaf for its spans of the rays from `first` on that are `asked`. Calls use(spans, trouble, trouble_lo) if there are any,
+/// or where there is trouble: the ray runs in the boundary, or was left over. What is told of other rays has no meaning.
+template <class Use>
+HWY_INLINE void ask_leaf(const Walker<8>& w, std::uint32_t index, int first, std::uint32_t asked,
+                         Use&& use) {
     const Context<8>& c = w.contexts[0];
     const Leaf& leaf = c.solid->leaves[index];
     const Frame& frame = w.data->frames[leaf.frame];
     const Local<Lanes> local = localise<Lanes>(
         frame, leaf, load(c.o[0] + first), load(c.o[1] + first), load(c.o[2] + first),
         load(c.d[0] + first), load(c.d[1] + first), load(c.d[2] + first), load(c.error + first));
-    const Lanes slack = start_slack(load(c.start_error + first), local.place_error);
-    int count = 0;
-    Mask touched = Lanes(0.0) > Lanes(1.0);
-    Lanes touch_lo(0.0);
-    trouble = mask_of(0);
+    const Lanes slack = w.nearest.on_surface
+                            ? start_slack(load(c.start_error + first), local.place_error)
+                            : Lanes(0.0);
+    const auto left_over_from = [&]() RAYMO_INLINE_BODY {
+        return local.shift - Lanes(frame.reach) / lane_sqrt(local.ray.dd);
+    };
     if (frame.in_blocks) {
         solids::RayBlock block;
         store(local.ray, block, first);
         solids::SpanBlock found;
         block_spans(w.data->kernels, frame, block, asked << first, found);
-        const auto end = [&](const solids::SpanBlock::End& e, int k) {
-            return end_at(local.shift, slack, load(e.s[k] + first), load(e.error[k] + first),
-                          load(e.face[k] + first));
-        };
-        count = found.count;
-        for (int k = 0; k < count; ++k) {
-            spans[k].valid = mask_of(found.valid[k] >> first);
-            spans[k].enter = end(found.enter, k);
-            spans[k].exit = end(found.exit, k);
-        }
-        trouble = mask_of(found.left_over >> first);
-    } else {
-        visit_kernel(w, frame, [&]<class K>(const K& kernel) RAYMO_INLINE_BODY {
-            constexpr int kSpans = kSpansInLanes<K>;
-            if constexpr (kSpans > 0 && !BlockKernel<K>) {
-                LaneSpans<Lanes, Mask, kSpans> found;
-                lane_spans(kernel, local.ray, found);
-                for (int k = 0; k < kSpans; ++k) {
-                    spans[k].valid = found.valid[k];
-                    spans[k].enter = end_at(local.shift, slack, found.enter[k],
-                                            found.enter_error[k], found.enter_face[k]);
-                    spans[k].exit = end_at(local.shift, slack, found.exit[k], found.exit_error[k],
-                                           found.exit_face[k]);
-                }
-                trouble = found.degenerate;
-                touched = found.touched;
-                touch_lo = local.shift + found.touch_lo;
-                count = kSpans;
+        if (found.count == 0 && found.left_over == 0) return;
+        const Mask trouble = mask_of(found.left_over >> first);
+        use(SpansInBlock{found, first, local.shift, slack}, trouble,
+            lane_any(trouble) ? left_over_from() : Lanes(kInfinity));
+        return;
+    }
+    const Mask here = mask_of(asked);
+    visit_kernel(w, frame, [&]<class K>(const K& kernel) RAYMO_INLINE_BODY {
+        constexpr int kSpans = kSpansInLanes<K>;
+        if constexpr (kSpans > 0 && !BlockKernel<K>) {
+            LaneSpans<Lanes, Mask, kSpans> found;
+            lane_spans(kernel, local.ray, found);
+            Mask trouble = lane_or(found.degenerate, found.touched);
+            Mask any = trouble;
+            for (int k = 0; k < kSpans; ++k) any = lane_or(any, found.valid[k]);
+            if (!lane_any(lane_and(here, any))) return;
+            Lanes trouble_lo(kInfinity);
+            if (lane_any(lane_and(here, trouble))) {
+                if (lane_any(found.degenerate)) trouble_lo = left_over_from();
+                const Lanes touch_lo = local.shift + found.touch_lo;
+                trouble_lo = lane_select(
+                    found.touched,
+                    lane_min(trouble_lo, touch_lo - lane_abs(touch_lo) * Lanes(0x1p-50)),
+                    trouble_lo);
             }
-        });
-    }
+            use(SpansFound<kSpans>{found, local.shift, slack}, trouble, trouble_lo);
+        }
+    });
+}
+
+/// The same, kept. Returns how many spans a ray has at most.
+HWY_INLINE int spans_of(const Walker<8>& w, std::uint32_t index, int first, std::uint32_t asked,
+                        SpanInLanes (&spans)[kMostSpansInLanes], Mask& trouble, Lanes& trouble_lo) {
+    int count = 0;
+    trouble = mask_of(0);
     trouble_lo = Lanes(kInfinity);
-    if (lane_any(trouble)) trouble_lo = local.shift - Lanes(frame.reach) / lane_sqrt(local.ray.dd);
-    if (lane_any(touched)) {
-        trouble_lo = lane_select(
-            touched, lane_min(trouble_lo, touch_lo - lane_abs(touch_lo) * Lanes(0x1p-50)),
-            trouble_lo);
-        trouble = lane_or(trouble, touched);
-    }
+    ask_leaf(w, index, first, asked,
+             [&](const auto& found, Mask where, Lanes from) RAYMO_INLINE_BODY {
+                 count = found.count();
+                 for (int k = 0; k < count; ++k)
+                     spans[k] = {found.valid(k), found.enter(k), found.exit(k)};
+                 trouble = where;
+                 trouble_lo = from;
+             });
     return count;
 }
 
@@ -96,6 +136,7 @@ HWY_INLINE int spans_of(Walker<8>& w, std::uint32_t index, int first, std::uint3
 struct NearestInLanes {
     Lanes lo, t, error, face, leaf, second_lo, start_hi, trouble_lo;
     Lanes start, limit;
+    bool changed;  ///< since it was loaded
 
     HWY_INLINE void offer(Mask there, const EndInLanes& end, Lanes by) {
         // Cores that overlap show the same face of a cutter that they share.
@@ -130,6 +171,7 @@ HWY_INLINE NearestInLanes load(const Nearest& n, int first) {
     out.trouble_lo = load(n.trouble_lo + first);
     out.start = load(n.start + first);
     out.limit = load(n.limit + first);
+    out.changed = false;
     return out;
 }
 HWY_INLINE void store(const NearestInLanes& l, Nearest& n, int first) {
@@ -151,36 +193,39 @@ inline constexpr int kMostSearches = 32;
 inline constexpr double kLeaving = 0.5;
 
 /// A leaf by itself. Returns the rays that start inside it.
-HWY_INLINE std::uint32_t meet_leaf(Walker<8>& w, std::uint32_t index, int first,
+HWY_INLINE std::uint32_t meet_leaf(const Walker<8>& w, std::uint32_t index, int first,
                                    std::uint32_t lanes, NearestInLanes& nearest) {
-    SpanInLanes spans[kMostSpansInLanes];
-    Mask trouble;
-    Lanes trouble_lo;
-    const int count = spans_of(w, index, first, lanes, spans, trouble, trouble_lo);
-    const Mask here = mask_of(lanes);
-    nearest.doubt(lane_and(here, trouble), trouble_lo);
     std::uint32_t inside = 0;
-    for (int k = 0; k < count; ++k) {
-        const SpanInLanes& span = spans[k];
-        const Mask there = lane_and(here, span.valid);
-        if (!lane_any(there)) continue;
-        const Mask ahead = span.enter.near > nearest.start;
-        nearest.offer(lane_and(there, lane_and(ahead, span.enter.lo <= nearest.limit)), span.enter,
-                      Lanes(static_cast<double>(index)));
-        const Mask about =
-            lane_and(there, lane_and(lane_not(ahead), span.exit.hi >= nearest.start));
-        if (!lane_any(about)) continue;
-        const Mask left = span.exit.near <= nearest.start;
-        nearest.pass(about, span.enter.hi);
-        nearest.pass(lane_and(about, left), span.exit.hi);
-        const std::uint32_t within = bits(lane_and(about, lane_not(left)));
-        if (within == 0) continue;
-        inside |= within;
-        if (!w.contexts[0].solid->leaves[index].alone) continue;
-        // The part ends where its only leaf ends: that is another surface to be met.
-        nearest.offer(lane_and(mask_of(within), span.exit.lo <= nearest.limit), span.exit,
-                      Lanes(static_cast<double>(index) + kLeaving));
-    }
+    ask_leaf(w, index, first, lanes,
+             [&](const auto& found, Mask trouble, Lanes trouble_lo) RAYMO_INLINE_BODY {
+                 const Mask here = mask_of(lanes);
+                 nearest.changed = true;
+                 nearest.doubt(lane_and(here, trouble), trouble_lo);
+                 for (int k = 0; k < found.count(); ++k) {
+                     const Mask there = lane_and(here, found.valid(k));
+                     if (!lane_any(there)) continue;
+                     const EndInLanes enter = found.enter(k);
+                     const Mask ahead = enter.near > nearest.start;
+                     const Lanes number(static_cast<double>(index));
+                     nearest.offer(lane_and(there, lane_and(ahead, enter.lo <= nearest.limit)),
+                                   enter, number);
+                     const Mask begun = lane_and(there, lane_not(ahead));
+                     if (!lane_any(begun)) continue;
+                     const EndInLanes exit = found.exit(k);
+                     const Mask about = lane_and(begun, exit.hi >= nearest.start);
+                     if (!lane_any(about)) continue;
+                     const Mask left = exit.near <= nearest.start;
+                     nearest.pass(about, enter.hi);
+                     nearest.pass(lane_and(about, left), exit.hi);
+                     const std::uint32_t within = bits(lane_and(about, lane_not(left)));
+                     if (within == 0) continue;
+                     inside |= within;
+                     if (!w.contexts[0].solid->leaves[index].alone) continue;
+                     // The part ends where its only leaf ends: that is another surface to be met.
+                     nearest.offer(lane_and(mask_of(within), exit.lo <= nearest.limit), exit,
+                                   number + Lanes(kLeaving));
+                 }
+             });
     return inside;
 }
 
@@ -425,6 +470,7 @@ HWY_INLINE std::uint32_t meet_product(Walker<8>& w, const Beam& beam, std::uint3
     const CompiledSolid& solid = *w.contexts[0].solid;
     const Lanes start = nearest.start;
     const Mask here = mask_of(lanes);
+    nearest.changed = true;
     MembersInLanes members;
     for (int i = 0; i < size; ++i) {
         const std::uint32_t number = index + static_cast<std::uint32_t>(i);
@@ -483,6 +529,7 @@ HWY_INLINE void walk_nearest(Walker<8>& w) {
             open_node(w, box.ref(), lanes, beam);
             continue;
         }
+        bool changed = false;
         for (int first = 0; first < 8; first += kLanes) {
             const std::uint32_t here = (lanes >> first) & ((1U << kLanes) - 1U);
             if (here == 0) continue;
@@ -504,9 +551,11 @@ HWY_INLINE void walk_nearest(Walker<8>& w) {
                 }
                 k += static_cast<std::uint32_t>(size);
             }
-            store(nearest, n, first);
+            if (nearest.changed) store(nearest, n, first);
+            changed |= nearest.changed;
         }
         w.leaves += count * static_cast<std::uint64_t>(lane_count(lanes));
+        if (!changed) continue;
         for (int i = 0; i < 8; i += kLanes) {
             const Lanes hi = lane_min(load(n.hi + i), load(n.limit + i));
             store_floats(hi + Lanes(0x1p-20) * lane_abs(hi), c.to + i);

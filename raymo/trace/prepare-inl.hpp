@@ -42,6 +42,7 @@ HWY_INLINE void prepare_packet(Walker<8>& w, const RayPacket& rays) {
     const CompiledSolid& base = *c.solid;
     Nearest& n = w.nearest;
     std::uint32_t very_far = 0;
+    n.on_surface = false;
     const Lanes scale(base.scale);
     for (int first = 0; first < 8; first += kLanes) {
         const Lanes given[3] = {load(rays.d[0] + first), load(rays.d[1] + first),
@@ -95,7 +96,9 @@ HWY_INLINE void prepare_packet(Walker<8>& w, const RayPacket& rays) {
         store_floats(from - Lanes(0x1p-20) * lane_abs(from), c.from + first);
         store_floats(to + Lanes(0x1p-20) * lane_abs(to), c.to + first);
         store(error, c.error + first);
-        store(load(rays.start_error + first) * scale, c.start_error + first);
+        const Lanes start_error = load(rays.start_error + first) * scale;
+        n.on_surface |= lane_any(start_error > Lanes(0.0));
+        store(start_error, c.start_error + first);
         store(Lanes(0.0), c.t0 + first);
         very_far |= bits(lane_not(far <= Lanes(0x1p+400))) << first;
     }

@@ -255,6 +255,7 @@ struct alignas(64) Nearest {
     double start[8], limit[8], shift[8], t_per_s[8];
     std::uint32_t found;
     std::uint32_t deferred;
+    bool on_surface;  ///< some ray starts on a surface
 };
 
 template <int L>
