@@ -254,58 +254,86 @@ void RayShader::dim(RayPacket& shadows, int hit) {
 /// The same with transparent parts on the way to a lamp. Light goes straight on through them, as bending would leave the
 /// lamp aside [Whitted80].
 void RayShader::filter(RayPacket& shadows, int hit) {
-    const HitPacket& met = shadow_hits_;
-    alignas(64) double left[8];
-    alignas(64) double transmission[8];
-    alignas(64) double ratio[8];
-    std::array<const Surface*, 8> around;
-    std::fill_n(left, 8, 1.0);
+    std::fill_n(left_, 8, 1.0);
     for (LaneBits rest = gains_.lanes; rest != 0; rest &= rest - 1) {
         const auto i = static_cast<std::size_t>(lowest_lane(rest));
-        around[i] = &surfaces_[hits_.medium_before[hit < 0 ? i : static_cast<std::size_t>(hit)]];
+        around_[i] = &surfaces_[hits_.medium_before[hit < 0 ? i : static_cast<std::size_t>(hit)]];
     }
-    const auto absorb = [&](int i, double length) {
-        const Surface& medium = *around[static_cast<std::size_t>(i)];
-        if (!medium.absorbs) return;
-        set_lane(gains_.light, i, lane_of(gains_.light, i) * transmittance(medium, length));
-    };
-    for (LaneBits going = gains_.lanes;;) {
-        const LaneBits found = tracer_.first_hits(shadows, going, shadow_hits_);
-        for (LaneBits rest = going & ~found; rest != 0; rest &= rest - 1) {
+    LaneBits blocked = 0;
+    LaneBits by_steps = tracer_.passages(shadows, gains_.lanes, passages_, blocked);
+    LaneBits arriving = gains_.lanes & ~(blocked | by_steps);
+    alignas(64) double reached[8] = {};
+    alignas(64) double length[8] = {};
+    for (int k = 0; k < passages_.count && arriving != 0; ++k) {
+        const HitPacket& met = passages_.hits[k];
+        const LaneBits crossing = arriving & passages_.lanes[k];
+        if (crossing == 0) continue;
+        for (LaneBits rest = crossing; rest != 0; rest &= rest - 1) {
             const int i = lowest_lane(rest);
-            absorb(i, shadows.t_max[i]);
+            length[i] = met.t[i] - reached[i];
+            reached[i] = met.t[i];
         }
-        going &= found;
-        for (LaneBits rest = going; rest != 0; rest &= rest - 1) {
-            const int i = lowest_lane(rest);
-            const auto k = static_cast<std::size_t>(i);
-            const Surface& material = surfaces_[met.material[i]];
-            if (!material.transparent) {
-                gains_.lanes &= ~(1U << i);
-                continue;
-            }
-            around[k] = &surfaces_[met.medium_before[i]];
-            absorb(i, met.t[i]);
-            const double index = around[k]->index;
-            around[k] = &surfaces_[met.medium_after[i]];
-            ratio[i] = std::max(around[k]->index, index) / std::min(around[k]->index, index);
-            transmission[i] = material.transmission;
-        }
-        going &= gains_.lanes;
-        if (going != 0) shade_passage(met, shadows.d, going, transmission, ratio, left);
-        for (LaneBits rest = going; rest != 0; rest &= rest - 1) {
-            const int i = lowest_lane(rest);
-            if (left[i] < kDark) gains_.lanes &= ~(1U << i);
-        }
-        going &= gains_.lanes;
-        if (going == 0) break;
-        shadows.go_on_from(met, going);
-        counts_.shadow += static_cast<std::uint64_t>(trace::lane_count(going));
+        arriving &= ~crossing | cross(met, shadows.d, length, crossing);
     }
-    for (LaneBits rest = gains_.lanes; rest != 0; rest &= rest - 1) {
+    for (LaneBits rest = arriving; rest != 0; rest &= rest - 1) {
         const int i = lowest_lane(rest);
-        set_lane(gains_.light, i, lane_of(gains_.light, i) * left[i]);
+        const auto k = static_cast<std::size_t>(i);
+        absorb_gain(i, *around_[k], shadows.t_max[i] - reached[i]);
     }
+    // The others go from surface to surface.
+    while (by_steps != 0) {
+        const LaneBits found = tracer_.first_hits(shadows, by_steps, shadow_hits_);
+        for (LaneBits rest = by_steps & ~found; rest != 0; rest &= rest - 1) {
+            const int i = lowest_lane(rest);
+            absorb_gain(i, *around_[static_cast<std::size_t>(i)], shadows.t_max[i]);
+        }
+        arriving |= by_steps & ~found;
+        by_steps = found == 0 ? 0 : cross(shadow_hits_, shadows.d, shadow_hits_.t, found);
+        if (by_steps == 0) break;
+        shadows.go_on_from(shadow_hits_, by_steps);
+        counts_.shadow += static_cast<std::uint64_t>(trace::lane_count(by_steps));
+    }
+    gains_.lanes = arriving;
+    for (LaneBits rest = arriving; rest != 0; rest &= rest - 1) {
+        const int i = lowest_lane(rest);
+        set_lane(gains_.light, i, lane_of(gains_.light, i) * left_[i]);
+    }
+}
+
+void RayShader::absorb_gain(int lane, const Surface& medium, double length) {
+    if (!medium.absorbs) return;
+    set_lane(gains_.light, lane, lane_of(gains_.light, lane) * transmittance(medium, length));
+}
+
+/// Takes rays to a lamp along `view` across the surfaces that they meet, after `length` each. Returns those of `lanes` that
+/// still bring light.
+LaneBits RayShader::cross(const HitPacket& met, const double (&view)[3][8],
+                          const double (&length)[8], LaneBits lanes) {
+    alignas(64) double transmission[8] = {};
+    alignas(64) double ratio[8] = {1, 1, 1, 1, 1, 1, 1, 1};
+    LaneBits going = lanes;
+    for (LaneBits rest = lanes; rest != 0; rest &= rest - 1) {
+        const int i = lowest_lane(rest);
+        const auto k = static_cast<std::size_t>(i);
+        const Surface& material = surfaces_[met.material[i]];
+        if (!material.transparent) {
+            going &= ~(1U << i);
+            continue;
+        }
+        const Surface& before = surfaces_[met.medium_before[i]];
+        absorb_gain(i, before, length[i]);
+        const double index = before.index;
+        around_[k] = &surfaces_[met.medium_after[i]];
+        ratio[i] = std::max(around_[k]->index, index) / std::min(around_[k]->index, index);
+        transmission[i] = material.transmission;
+    }
+    if (going == 0) return 0;
+    shade_passage(met, view, going, transmission, ratio, left_);
+    for (LaneBits rest = going; rest != 0; rest &= rest - 1) {
+        const int i = lowest_lane(rest);
+        if (left_[i] < kDark) going &= ~(1U << i);
+    }
+    return going;
 }
 
 }  // namespace raymo::render

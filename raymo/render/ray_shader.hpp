@@ -86,6 +86,9 @@ private:
     void light_softly(const Lamp& lamp, const trace::RayPacket& rays, int lane, const Path& path);
     void dim(trace::RayPacket& shadows, int hit);
     void filter(trace::RayPacket& shadows, int hit);
+    void absorb_gain(int lane, const Surface& medium, double length);
+    [[nodiscard]] LaneBits cross(const trace::HitPacket& met, const double (&view)[3][8],
+                                 const double (&length)[8], LaneBits lanes);
 
     const Stage* stage_;
     trace::Tracer tracer_;
@@ -96,6 +99,9 @@ private:
     Onward reflected_, refracted_;
     Gains gains_;
     trace::RayPacket shadows_;
+    trace::PassagePacket passages_;
+    std::array<const Surface*, 8> around_;  ///< what each ray to a lamp is in
+    double left_[8];  ///< of its light, behind the surfaces that it has passed
     // Of the batch in hand. Images and what is seen through surfaces wait apart: rays of one kind are closer.
     RayStack images_, views_;
     const EyeBatch* eyes_ = nullptr;

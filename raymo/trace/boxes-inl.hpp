@@ -106,7 +106,7 @@ HWY_INLINE Beam beam_of(const Context<8>& c, std::uint32_t lanes) {
     return beam;
 }
 /// The children of a node that the beam may meet, one bit each.
-HWY_INLINE std::uint32_t meet_node(const Beam& beam, const BvhNode& node) {
+HWY_INLINE std::uint32_t meet_node(const Beam& beam, const BvhNode& node, float* near) {
     const F f;
     std::uint32_t met = 0;
     for (int v = 0; v < BvhNode::kWidth; v += kFloats) {
@@ -124,6 +124,7 @@ HWY_INLINE std::uint32_t meet_node(const Beam& beam, const BvhNode& node) {
             enter = hn::Max(enter, hn::Min(hn::Mul(front, least), hn::Mul(front, most)));
             leave = hn::Min(leave, hn::Max(hn::Mul(back, least), hn::Mul(back, most)));
         }
+        hn::Store(enter, f, near + v);
         met |= float_bits(hn::Le(enter, leave)) << v;
     }
     return met;
@@ -154,10 +155,15 @@ HWY_INLINE void open_node(Walker<8>& w, std::uint32_t ref, std::uint32_t lanes, 
     for (int v = 0; v < 8 / kFloats; ++v) rays[v] = rays_in_floats(c, v * kFloats);
     ++w.boxes;
     w.near_boxes.make_room(BvhNode::kWidth);
-    std::uint32_t met = beam.usable ? meet_node(beam, node) : 0xffU;
+    alignas(64) float near[8];
+    std::uint32_t met = beam.usable ? meet_node(beam, node, near) : 0xffU;
     for (; met != 0; met &= met - 1) {
         const int k = __builtin_ctz(met);
         if (node.lo[0][k] > node.hi[0][k]) break;
+        if (beam.usable && !w.nearest.on_surface && node.count[k] == 0) {
+            w.near_boxes.put({near[k], node.ref[k], node.count[k], lanes});
+            continue;
+        }
         const Met by = meet_box(rays, node, k);
         if ((by.lanes & lanes) == 0) continue;
         // Rays that do not count may be nearer: that opens the box too early, never too late.

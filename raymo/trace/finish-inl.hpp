@@ -1,5 +1,5 @@
 // What is told of the surfaces that a packet meets in a simple solid; included by walk.cpp once per instruction set, inside
-// HWY_NAMESPACE, after nearest-inl.hpp.
+// HWY_NAMESPACE.
 
 /// The material that the surface of leaf `index` shows.
 HWY_INLINE csg::MaterialId material_shown(const Walker<8>& w, std::uint32_t index) {
@@ -110,10 +110,10 @@ HWY_INLINE void finish_leaf(const Walker<8>& w, double number, std::uint32_t sam
     }
 }
 
-/// Fills in what is told of the surfaces that were found, leaf by leaf.
-HWY_INLINE void finish_nearest(const Walker<8>& w, HitPacket& hits) {
+/// Fills in what is told of the surfaces that the rays `lanes` meet, leaf by leaf.
+HWY_INLINE void finish_surfaces(const Walker<8>& w, std::uint32_t lanes, HitPacket& hits) {
     const Nearest& n = w.nearest;
-    for (std::uint32_t rest = n.found & ~n.deferred; rest != 0;) {
+    for (std::uint32_t rest = lanes; rest != 0;) {
         const double number = n.leaf[__builtin_ctz(rest)];
         std::uint32_t same = 0;
         for (int i = 0; i < 8; i += kLanes) same |= bits(load(n.leaf + i) == Lanes(number)) << i;

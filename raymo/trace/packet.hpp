@@ -64,6 +64,15 @@ struct alignas(64) HitPacket {
     }
 };
 
+/// The surfaces of transparent parts that the rays of a packet cross: each ray those of which `lanes` has its bit, one after
+/// the other.
+struct PassagePacket {
+    static constexpr int kMost = 16;
+    HitPacket hits[kMost];
+    LaneBits lanes[kMost];
+    int count = 0;
+};
+
 /// Questions, as in RayQuery.
 struct alignas(64) RayPacket {
     static constexpr int kSize = 8;

@@ -232,6 +232,23 @@ LaneBits Tracer::occluded(const RayPacket& rays, LaneBits lanes) {
     return blocked;
 }
 
+LaneBits Tracer::passages(const RayPacket& rays, LaneBits lanes, PassagePacket& out,
+                          LaneBits& blocked) {
+    State& s = *state_;
+    RAYMO_ASSERT(lanes != 0 && lanes <= kAllLanes);
+    blocked = 0;
+    out.count = 0;
+    if (!s.data->solids.front().simple) return lanes;
+    s.start(s.eight, Mode::through);
+    s.eight.active = lanes;
+    walk_through(s.eight, rays, out);
+    s.counts.shadow += static_cast<std::uint64_t>(lane_count(lanes));
+    s.counts.boxes += s.eight.boxes;
+    s.counts.leaves += s.eight.leaves;
+    blocked = s.eight.nearest.found;
+    return s.eight.nearest.deferred;
+}
+
 void Tracer::spans(const Ray& ray, std::vector<std::vector<PartSpan>>& by_part) {
     State& s = *state_;
     ++s.counts.secondary;

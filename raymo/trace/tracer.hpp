@@ -61,6 +61,7 @@ struct RayCounts {
 
 struct RayPacket;
 struct HitPacket;
+struct PassagePacket;
 
 /// Answers rays. Holds scratch memory, so one per thread; the scene must outlive it.
 class Tracer {
@@ -82,6 +83,12 @@ public:
     std::uint32_t first_hits(const RayPacket& rays, std::uint32_t lanes, HitPacket& hits);
     /// Returns the rays that are occluded.
     std::uint32_t occluded(const RayPacket& rays, std::uint32_t lanes);
+
+    /// What light passes on the way of rays of a packet, where the surfaces that are met one after the other all belong to
+    /// transparent parts; `blocked` are the rays that meet something opaque. Those of `lanes` that are returned are left
+    /// over: of them nothing is told, and first_hits, from surface to surface, tells it.
+    std::uint32_t passages(const RayPacket& rays, std::uint32_t lanes, PassagePacket& out,
+                           std::uint32_t& blocked);
 
     /// All spans of every part along the whole line, from -infinity to +infinity, by part and then
     /// by t.

@@ -42,9 +42,12 @@ using solids::LocalRay;
 #include "raymo/trace/leaves-inl.hpp"
 #include "raymo/trace/surface.inl"
 //
-#include "raymo/trace/nearest-inl.hpp"
+#include "raymo/trace/spans-inl.hpp"
 //
 #include "raymo/trace/finish-inl.hpp"
+#include "raymo/trace/passages-inl.hpp"
+//
+#include "raymo/trace/nearest-inl.hpp"
 #include "raymo/trace/prepare-inl.hpp"
 
 /// Opens what lies nearest until every ray has its answer.
@@ -81,12 +84,23 @@ HWY_INLINE void walk_all(Walker<L>& w) {
 
 void walk1(Walker<1>& w) { walk_all(w); }
 void walk8(Walker<8>& w) { walk_all(w); }
-void walk_simple8(Walker<8>& w, const RayPacket& rays, HitPacket* hits) {
+/// In mode through `passed` is what the rays pass; otherwise `hits`, unless null, what they meet.
+void walk_simple8(Walker<8>& w, const RayPacket& rays, HitPacket* hits, PassagePacket* passed) {
     prepare_packet(w, rays);
     reset_nearest(w.nearest);
+    if (passed != nullptr) reset_passages(w.passages);
     walk_nearest(w);
     settle_nearest(w);
-    if (hits != nullptr) finish_nearest(w, *hits);
+    if (passed != nullptr) {
+        settle_passages(w, *passed);
+        for (int k = 0; k < passed->count; ++k) {
+            if (passed->lanes[k] == 0) continue;
+            show_passage(w, k);
+            finish_surfaces(w, passed->lanes[k], passed->hits[k]);
+        }
+    } else if (hits != nullptr) {
+        finish_surfaces(w, w.nearest.found & ~w.nearest.deferred, *hits);
+    }
 }
 
 }  // namespace HWY_NAMESPACE
@@ -103,7 +117,10 @@ HWY_EXPORT(walk_simple8);
 void walk(Walker<1>& walker) { HWY_DYNAMIC_DISPATCH(walk1)(walker); }
 void walk(Walker<8>& walker) { HWY_DYNAMIC_DISPATCH(walk8)(walker); }
 void walk_simple(Walker<8>& walker, const RayPacket& rays, HitPacket* hits) {
-    HWY_DYNAMIC_DISPATCH(walk_simple8)(walker, rays, hits);
+    HWY_DYNAMIC_DISPATCH(walk_simple8)(walker, rays, hits, nullptr);
+}
+void walk_through(Walker<8>& walker, const RayPacket& rays, PassagePacket& out) {
+    HWY_DYNAMIC_DISPATCH(walk_simple8)(walker, rays, nullptr, &out);
 }
 
 }  // namespace raymo::trace

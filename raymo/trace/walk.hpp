@@ -13,5 +13,7 @@ void walk(Walker<8>& walker);
 /// The nearest surfaces of a simple solid for the active rays: answers, or defers rays, in walker.nearest. `hits`: where to
 /// put what is met; may be null.
 void walk_simple(Walker<8>& walker, const RayPacket& rays, HitPacket* hits);
+/// The same in mode through: walker.nearest.found are the rays that meet something opaque, `out` is what the others pass.
+void walk_through(Walker<8>& walker, const RayPacket& rays, PassagePacket& out);
 
 }  // namespace raymo::trace

@@ -14,6 +14,7 @@
 
 #include "raymo/math/lanes.hpp"
 #include "raymo/trace/data.hpp"
+#include "raymo/trace/packet.hpp"
 #include "raymo/trace/tracer.hpp"
 
 namespace raymo::trace {
@@ -24,6 +25,8 @@ enum class Mode : std::uint8_t {
     first,  ///< the first change of any part after the start
     any,    ///< whether an opaque part is met between start and limit
     all,    ///< every change along the whole line
+    /// As any, but the transparent parts on the way are told; for packets through simple solids only.
+    through,
 };
 
 /// A leaf is entered or left. t is along the ray of the base frame (see RayState::shift).
@@ -258,6 +261,22 @@ struct alignas(64) Nearest {
     bool on_surface;  ///< some ray starts on a surface
 };
 
+/// Spans of transparent parts on the way of a packet, in their order; see passages-inl.hpp.
+struct Passages {
+    static constexpr int kMost = PassagePacket::kMost / 2;
+    struct alignas(64) End {
+        double lo[8], hi[8], t[8], error[8], face[8];
+        LaneBits lanes;  ///< rays that cross it
+    };
+    struct Span {
+        End enter, exit;
+        std::uint32_t leaf;
+    };
+    Span spans[kMost];
+    int count;
+    LaneBits overflown;  ///< rays that cross more
+};
+
 template <int L>
 struct Walker {
     const CompiledScene::Data* data = nullptr;
@@ -270,6 +289,7 @@ struct Walker {
     BoxList<Unopened> unopened;
     std::uint64_t boxes = 0, leaves = 0;
     Nearest nearest;                       ///< packets only
+    Passages passages;                     ///< mode through
     BoxList<NearBox> near_boxes;           ///< of the walk of a simple solid
     std::vector<CutterNode> cutter_nodes;  ///< of a product, level by level
 
@@ -280,6 +300,9 @@ struct Walker {
 
     [[nodiscard]] const Leaf& leaf_of(const Event& e) const {
         return contexts[e.context].solid->leaves[e.leaf];
+    }
+    [[nodiscard]] bool is_opaque(csg::MaterialId m) const {
+        return m >= data->materials.size() || !(data->materials[m].transmission > 0.0);
     }
 
 private:
@@ -295,9 +318,6 @@ private:
     };
     void flip(int lane, const Event& event);
     void settle(int lane, std::size_t end);
-    [[nodiscard]] bool is_opaque(csg::MaterialId m) const {
-        return m >= data->materials.size() || !(data->materials[m].transmission > 0.0);
-    }
     [[nodiscard]] const Event& shown_by(int lane, std::size_t end, const Change& change);
     [[nodiscard]] std::uint32_t part_of(const Event& event) const;
     [[nodiscard]] csg::MaterialId material_of(const Lane& lane, const Event& event,
