@@ -109,22 +109,13 @@ void RayShader::follow(RayStack& stack) {
     if (found != 0) shade(rays, found, paths);
 }
 
-/// What the way to the hits has absorbed.
-void RayShader::absorb(LaneBits lanes) {
-    for (LaneBits rest = lanes; rest != 0; rest &= rest - 1) {
-        const int i = lowest_lane(rest);
-        const Surface& before = surfaces_[hits_.medium_before[i]];
-        if (!before.absorbs) continue;
-        set_lane(spots_.weight, i, lane_of(spots_.weight, i) * transmittance(before, hits_.t[i]));
-    }
-}
-
 /// The surfaces that were met.
 void RayShader::look_up(LaneBits lanes) {
     const int some = lowest_lane(lanes);
     spots_.same = true;
     spots_.tinted = spots_.transparent = spots_.mirrors = spots_.slow = spots_.dark = 0;
     const bool clear = stage_->scene->has_transparency();
+    LaneBits absorbed = 0;
     std::fill_n(spots_.index, 8, 1.0);
     for (LaneBits rest = lanes; rest != 0;) {
         // All that met one material between the same media.
@@ -139,6 +130,8 @@ void RayShader::look_up(LaneBits lanes) {
         }
         rest &= ~alike;
         const Surface* material = &surfaces_[hits_.material[i]];
+        const Surface& before = surfaces_[hits_.medium_before[i]];
+        if (before.absorbs) absorbed |= alike;
         if (clear && material->transparent) {
             const Surface& after = surfaces_[hits_.medium_after[i]];
             // Where something opaque starts right behind a transparent surface, that is what is
@@ -146,7 +139,7 @@ void RayShader::look_up(LaneBits lanes) {
             if (hits_.medium_after[i] != Hit::kAir && !after.transparent) {
                 material = &after;
             } else {
-                const double index = after.index / surfaces_[hits_.medium_before[i]].index;
+                const double index = after.index / before.index;
                 for (int k = i; k < 8; ++k) {
                     if ((alike >> k & 1U) != 0) spots_.index[k] = index;
                 }
@@ -164,7 +157,13 @@ void RayShader::look_up(LaneBits lanes) {
     }
     for (LaneBits rest = ~lanes & trace::kAllLanes; rest != 0; rest &= rest - 1)
         spots_.surface[lowest_lane(rest)] = spots_.surface[some];
-    if (clear) absorb(lanes);
+    for (LaneBits rest = absorbed; rest != 0; rest &= rest - 1) {
+        // What the way to the hit has taken.
+        const int i = lowest_lane(rest);
+        set_lane(spots_.weight, i,
+                 lane_of(spots_.weight, i) *
+                     transmittance(surfaces_[hits_.medium_before[i]], hits_.t[i]));
+    }
 }
 
 void RayShader::shade(const RayPacket& rays, LaneBits lanes, const Paths& paths) {

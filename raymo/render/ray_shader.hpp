@@ -81,7 +81,6 @@ private:
     void shade(const trace::RayPacket& rays, LaneBits lanes, const Paths& paths);
     void follow(RayStack& stack);
     void look_up(LaneBits lanes);
-    void absorb(LaneBits lanes);
     void go_on(const Onward& onward, const Paths& paths, std::uint32_t turn);
     void light_softly(const Lamp& lamp, const trace::RayPacket& rays, int lane, const Path& path);
     void dim(trace::RayPacket& shadows, int hit);

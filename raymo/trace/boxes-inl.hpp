@@ -90,18 +90,55 @@ HWY_INLINE float most_of(const float* values, std::uint32_t lanes) {
     }
     return hn::GetLane(hn::MaxOfLanes(f, most));
 }
+/// The least (or the most) of each of eight lists of eight floats, over the lanes that count.
+template <bool kMost>
+HWY_INLINE void ends_of(const float* const (&lists)[8], std::uint32_t lanes, float (&out)[8]) {
+#if HWY_TARGET <= HWY_AVX2
+    const F f;
+    const hn::Repartition<double, F> pairs;
+    const auto other = hn::Set(f, kMost ? -std::numeric_limits<float>::infinity()
+                                        : std::numeric_limits<float>::infinity());
+    const auto mask = float_mask(lanes);
+    const auto better = [](Floats a, Floats b) { return kMost ? hn::Max(a, b) : hn::Min(a, b); };
+    const auto read = [&](int i) { return hn::IfThenElse(mask, hn::Load(f, lists[i]), other); };
+    // Two lists side by side in each block, then four, then all: every step halves what is left of each.
+    const auto two = [&](int i) {
+        const Floats x = read(i);
+        const Floats y = read(i + 1);
+        return better(hn::InterleaveLower(f, x, y), hn::InterleaveUpper(f, x, y));
+    };
+    const auto four = [&](int i) {
+        const auto x = hn::BitCast(pairs, two(i));
+        const auto y = hn::BitCast(pairs, two(i + 2));
+        return better(hn::BitCast(f, hn::InterleaveLower(pairs, x, y)),
+                      hn::BitCast(f, hn::InterleaveUpper(pairs, x, y)));
+    };
+    const Floats x = four(0);
+    const Floats y = four(4);
+    hn::StoreU(better(hn::ConcatLowerLower(f, y, x), hn::ConcatUpperUpper(f, y, x)), f, out);
+#else
+    for (int i = 0; i < 8; ++i)
+        out[i] = kMost ? most_of(lists[i], lanes) : least_of(lists[i], lanes);
+#endif
+}
 HWY_INLINE Beam beam_of(const Context<8>& c, std::uint32_t lanes) {
     Beam beam{};
+    const float* const lists[8] = {c.inverse[0], c.inverse[1], c.inverse[2], c.fo[0],
+                                   c.fo[1],      c.fo[2],      c.from,       c.to};
+    float least[8];
+    float most[8];
+    ends_of<false>(lists, lanes, least);
+    ends_of<true>(lists, lanes, most);
     for (int a = 0; a < 3; ++a) {
-        beam.least[a] = least_of(c.inverse[a], lanes);
-        beam.most[a] = most_of(c.inverse[a], lanes);
+        beam.least[a] = least[a];
+        beam.most[a] = most[a];
         if (beam.least[a] < 0.0F && beam.most[a] > 0.0F) return beam;
         beam.forward[a] = beam.least[a] > 0.0F;
-        beam.nearest[a] = beam.forward[a] ? most_of(c.fo[a], lanes) : least_of(c.fo[a], lanes);
-        beam.furthest[a] = beam.forward[a] ? least_of(c.fo[a], lanes) : most_of(c.fo[a], lanes);
+        beam.nearest[a] = beam.forward[a] ? most[3 + a] : least[3 + a];
+        beam.furthest[a] = beam.forward[a] ? least[3 + a] : most[3 + a];
     }
-    beam.from = least_of(c.from, lanes);
-    beam.to = most_of(c.to, lanes);
+    beam.from = least[6];
+    beam.to = most[7];
     beam.usable = true;
     return beam;
 }
