@@ -38,7 +38,23 @@ HWY_INLINE void clip(Floats lo, Floats hi, Floats o, Floats inverse, Floats& ent
     leave = hn::Min(leave, hn::Max(p, q));
 }
 
-/// Which rays of a packet meet child `k` of a node, and where the first of them does.
+/// Which rays of a packet meet child `k` of a node.
+HWY_INLINE std::uint32_t lanes_in_box(const RaysInFloats* rays, const BvhNode& node, int k) {
+    const F f;
+    std::uint32_t lanes = 0;
+    for (int v = 0; v < 8 / kFloats; ++v) {
+        const RaysInFloats& r = rays[v];
+        Floats enter = r.from;
+        Floats leave = r.to;
+        clip(hn::Set(f, node.lo[0][k]), hn::Set(f, node.hi[0][k]), r.ox, r.ix, enter, leave);
+        clip(hn::Set(f, node.lo[1][k]), hn::Set(f, node.hi[1][k]), r.oy, r.iy, enter, leave);
+        clip(hn::Set(f, node.lo[2][k]), hn::Set(f, node.hi[2][k]), r.oz, r.iz, enter, leave);
+        lanes |= float_bits(hn::Le(enter, leave)) << (v * kFloats);
+    }
+    return lanes;
+}
+
+/// The same, and where the first of them does.
 struct Met {
     std::uint32_t lanes;
     float near;
@@ -184,6 +200,16 @@ HWY_INLINE std::uint32_t meet_node_alone(const Context<8>& c, int i, float from,
     return met;
 }
 
+/// Asks for what a child of a node holds, before it is waited for.
+HWY_INLINE void fetch_child(const CompiledSolid& solid, const BvhNode& node, int k) {
+    if (node.count[k] != 0) {
+        __builtin_prefetch(&solid.leaves[node.ref[k]]);
+    } else {
+        const auto* lines = reinterpret_cast<const char*>(&solid.nodes[node.ref[k]]);
+        for (std::size_t i = 0; i < sizeof(BvhNode); i += 64) __builtin_prefetch(lines + i);
+    }
+}
+
 /// A packet of rays against the children of a node, for the walk of a simple solid.
 HWY_INLINE void open_node(Walker<8>& w, std::uint32_t ref, std::uint32_t lanes, const Beam& beam) {
     const Context<8>& c = w.contexts[0];
@@ -197,14 +223,17 @@ HWY_INLINE void open_node(Walker<8>& w, std::uint32_t ref, std::uint32_t lanes, 
     for (; met != 0; met &= met - 1) {
         const int k = __builtin_ctz(met);
         if (node.lo[0][k] > node.hi[0][k]) break;
-        if (beam.usable && !w.nearest.on_surface && node.count[k] == 0) {
-            w.near_boxes.put({near[k], node.ref[k], node.count[k], lanes});
-            continue;
+        // Rays that do not count may be nearer, and a beam is nearer than its rays: that opens a box too early, never too late.
+        Met by{lanes, near[k]};
+        if (!beam.usable) {
+            by = meet_box(rays, node, k);
+        } else if (w.nearest.on_surface || node.count[k] != 0) {
+            by.lanes = lanes_in_box(rays, node, k);
         }
-        const Met by = meet_box(rays, node, k);
-        if ((by.lanes & lanes) == 0) continue;
-        // Rays that do not count may be nearer: that opens the box too early, never too late.
-        w.near_boxes.put({by.near, node.ref[k], node.count[k], by.lanes & lanes});
+        by.lanes &= lanes;
+        if (by.lanes == 0) continue;
+        fetch_child(*c.solid, node, k);
+        w.near_boxes.put({by.near, node.ref[k], node.count[k], by.lanes});
     }
 }
 

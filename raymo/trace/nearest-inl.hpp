@@ -110,15 +110,10 @@ HWY_INLINE void open_cutters(Walker<8>& w, const Beam* beam, const RaysInFloats*
     for (; children != 0; children &= children - 1) {
         const int k = __builtin_ctz(children);
         if (!(node.lo[0][k] <= node.hi[0][k])) break;
-        const std::uint32_t met = single ? at.lanes : meet_box(rays, node, k).lanes & at.lanes;
+        const std::uint32_t met = single ? at.lanes : lanes_in_box(rays, node, k) & at.lanes;
         if (met == 0) continue;
         w.cutter_nodes.push_back({node.ref[k], node.count[k], met});
-        if (node.count[k] != 0) {
-            __builtin_prefetch(&solid.leaves[node.ref[k]]);
-        } else {
-            const auto* lines = reinterpret_cast<const char*>(&solid.nodes[node.ref[k]]);
-            for (std::size_t i = 0; i < sizeof(BvhNode); i += 64) __builtin_prefetch(lines + i);
-        }
+        fetch_child(solid, node, k);
     }
 }
 
