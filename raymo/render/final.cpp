@@ -98,9 +98,12 @@ bool draw_final(const Sitting& s) {
                             s.film.set(pixel, light);
                             if (!once) seen[pixel] = signature;
                         });
-        for_each_cell(tile, [&](int x, int y) {
-            sampler.add_middle(x, y, static_cast<std::size_t>(y) * w + static_cast<std::size_t>(x));
-        });
+        const auto pixel = [w](int x, int y) {
+            return static_cast<std::size_t>(y) * w + static_cast<std::size_t>(x);
+        };
+        for_each_block(
+            tile, [&](int x, int y) { sampler.add_middles(x, y, pixel(x, y), w); },
+            [&](int x, int y) { sampler.add_middle(x, y, pixel(x, y)); });
         sampler.flush();
     };
     if (!s.crew.run(tiles, 0.0, once ? 1.0 : kFirstPass, draw_middles)) return false;

@@ -36,14 +36,18 @@ public:
         if (first + 8 > columns_[0].size()) {
             for (auto& column : columns_) column.resize(2 * first + 64);
         }
+        // Eight are written in any case: what lies beyond the last is overwritten by the next.
+        std::array<std::size_t, 8> from{};
+        std::size_t count = 0;
+        for (LaneBits rest = lanes; rest != 0; rest &= rest - 1)
+            from[count++] = static_cast<std::size_t>(trace::lowest_lane(rest));
         std::size_t c = 0;
         const auto pack = [&](const double(&values)[8]) {
             double* out = columns_[c++].data() + first;
             if (lanes == trace::kAllLanes) {
                 std::memcpy(out, values, sizeof values);
             } else {
-                for (LaneBits rest = lanes; rest != 0; rest &= rest - 1)
-                    *out++ = values[trace::lowest_lane(rest)];
+                for (std::size_t k = 0; k < 8; ++k) out[k] = values[from[k]];
             }
         };
         for (const auto& values : hits.point) pack(values);

@@ -60,6 +60,21 @@ void for_each_cell(const Rect& tile, F&& f) {
     }
 }
 
+/// Calls cell(x, y) for the blocks of 4 x 2 that lie within a tile and whose corners those are, and pixel(x, y) for what
+/// is left of it beside them; in the same order.
+template <class Cell, class Pixel>
+void for_each_block(const Rect& tile, Cell&& cell, Pixel&& pixel) {
+    for (int y = tile.y0; y < tile.y1; y += 2) {
+        for (int x = tile.x0; x < tile.x1; x += 4) {
+            if (x + 4 <= tile.x1 && y + 2 <= tile.y1) {
+                cell(x, y);
+            } else {
+                for_each_cell({x, y, std::min(x + 4, tile.x1), std::min(y + 2, tile.y1)}, pixel);
+            }
+        }
+    }
+}
+
 /// Where two neighbouring answers differ so much that the line between them shows: another surface,
 /// a bend of more than about 45 degrees, or a step of about 1/16 in brightness as a screen shows
 /// it.
@@ -101,6 +116,32 @@ public:
     void add_middle(int x, int y, std::size_t pixel) {
         if (shader_->stage().soft) seed(x, y);
         add(x + 0.5, y + 0.5, 0, pixel);
+    }
+    /// The same for the eight pixels of a block with the corner (x, y); `pixel` is that of the corner, rows are `stride` apart.
+    void add_middles(int x, int y, std::size_t pixel, std::size_t stride) {
+        if (shader_->stage().soft || batch_.count % 8 != 0) {
+            for (int k = 0; k < 8; ++k) {
+                const int u = k % 4;
+                const int v = k / 4;
+                add_middle(
+                    x + u, y + v,
+                    pixel + static_cast<std::size_t>(u) + static_cast<std::size_t>(v) * stride);
+            }
+            return;
+        }
+        const std::size_t first = batch_.count;
+        Eight& xs = x_[first / 8];
+        Eight& ys = y_[first / 8];
+        for (std::size_t k = 0; k < 4; ++k) {
+            xs.at[k] = xs.at[4 + k] = x + (static_cast<double>(k) + 0.5);
+            ys.at[k] = y + 0.5;
+            ys.at[4 + k] = y + 1.5;
+            pixel_[first + k] = pixel + k;
+            pixel_[first + 4 + k] = pixel + stride + k;
+        }
+        std::fill_n(batch_.sample.begin() + first, 8, 0U);
+        batch_.count += 8;
+        if (batch_.count == EyeBatch::kMost) flush();
     }
     /// Ray number `k` of a pixel.
     void add_sample(int x, int y, std::uint32_t k, std::size_t pixel) {

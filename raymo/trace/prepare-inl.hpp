@@ -10,8 +10,12 @@ HWY_INLINE SumInLanes two_sum(Lanes a, Lanes b) {
     const Lanes bb = s - a;
     return {s, (a - (s - bb)) + (b - bb)};
 }
-/// a * b = sum + rest, exactly [Dekker71], while nothing overflows: what a fused multiplication gives, where there is none.
+/// a * b = sum + rest, exactly, while nothing overflows: by a fused multiplication, or where there is none by [Dekker71].
 HWY_INLINE SumInLanes two_product(Lanes a, Lanes b) {
+#if HWY_NATIVE_FMA
+    const Lanes product = a * b;
+    return {product, lane_fma(a, b, Lanes(0.0) - product)};
+#else
     const Lanes splitter(134217729.0);  // 2^27 + 1
     const Lanes ca = splitter * a;
     const Lanes cb = splitter * b;
@@ -21,6 +25,7 @@ HWY_INLINE SumInLanes two_product(Lanes a, Lanes b) {
     const Lanes b2 = b - b1;
     const Lanes p = a * b;
     return {p, ((a1 * b1 - p) + a1 * b2 + a2 * b1) + a2 * b2};
+#endif
 }
 
 /// binary_inverse() of each lane.
@@ -77,9 +82,11 @@ HWY_INLINE void prepare_packet(Walker<8>& w, const RayPacket& rays) {
             const Lanes more = Lanes(8.0 * kUnitRoundoff) * (size + Lanes(kUnitRoundoff) * far);
             error = lane_select(moves, error + more, error);
         }
-        const Lanes t_per_s = unit / scale;
+        const Lanes t_per_s = unit * Lanes(1.0 / base.scale);  // powers of two
         const Lanes from = Lanes(0.0) - shift;
-        const Lanes to = load(rays.t_max + first) / t_per_s - shift;
+        const Lanes t_max = load(rays.t_max + first);
+        const bool endless = !lane_any(t_max < Lanes(kInfinity));
+        const Lanes to = (endless ? t_max : t_max / t_per_s) - shift;
         for (int a = 0; a < 3; ++a) {
             constexpr double kTilt = 1e-20;
             store(place[a], c.o[a] + first);
