@@ -226,6 +226,28 @@ private:
         return apart;
     }
 
+    /// Where the parabola through F at the ends and in the middle of a part crosses; on one half, the middle.
+    RAYMO_INLINE static R first_guess(const Search& at) {
+        const R half(0.5);
+        const auto value = [](R a, R b, R c) RAYMO_INLINE_BODY { return a * a + b * b - c * c; };
+        const auto middle = [](const R(&p)[4]) RAYMO_INLINE_BODY {
+            return R(0.125) * (p[0] + p[3]) + R(0.375) * (p[1] + p[2]);
+        };
+        const R(&a)[4] = at.part.a;
+        const R(&b)[4] = at.part.b;
+        const R(&c)[4] = at.part.c;
+        const R first = value(a[0], b[0], c[0]);
+        const R last = value(a[3], b[3], c[3]);
+        const R between = value(middle(a), middle(b), middle(c));
+        const R bend = R(2.0) * (first + last) - R(4.0) * between;
+        const R slope = R(4.0) * between - R(3.0) * first - last;
+        const R root = lane_sqrt(lane_max(slope * slope - R(4.0) * bend * first, R(0.0)));
+        const R u = R(-2.0) * first / (slope + lane_select(at.rises, root, R(0.0) - root));
+        const M either = lane_and(at.half<half, at.half> R(-0.5));
+        const M within = lane_and(u > R(0x1p-10), u < R(1.0 - 0x1p-10));
+        return lane_select(lane_and(either, within), u, half);
+    }
+
     /// The place of a crossing in its part: Newton's method within a bracket, until what is left is less than rounding. Behind a
     /// step d that is F'' d^2 / 2 F', with F'' from how the slope has changed over the step before, and of the size that the
     /// last two steps show.
@@ -235,7 +257,7 @@ private:
             lane_any(lane_and(at.there, lane_or(at.half > R(0.5), at.half < R(-0.5))));
         R lo = zero;
         R hi(1.0);
-        R u(0.5);
+        R u = first_guess(at);
         R found_at(0.5);
         R step(1.0);
         R before = zero;  // the last step, if it was one of Newton's
