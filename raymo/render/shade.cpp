@@ -125,7 +125,9 @@ void shade_surroundings_8(const Surroundings& around, const double (&view)[3][8]
         const Lanes nv = lane_max(none - dn, Lanes(1e-9));
         const Colours image = d - n * (dn + dn);
 
-        const Lanes facets = surface.reflectance(base.specular, nv);
+        // What is dark has no facets.
+        const Lanes facets =
+            (lanes & ~spots.dark) == 0 ? none : surface.reflectance(base.specular, nv);
         Lanes mirror = none;
         Lanes from_above = none;
         if (spots.mirrors != 0) {
@@ -136,7 +138,9 @@ void shade_surroundings_8(const Surroundings& around, const double (&view)[3][8]
         if (lane_any(clear)) {
             const Lanes least = lane_select(index == one, none, surface(base.least_mirror));
             mirror = lane_select(clear, lane_max(fresnel_of(nv, index), least), mirror);
-            from_above = lane_select(clear, fresnel_of(one, index), from_above);
+            // Only a tint asks for it.
+            if (spots.tinted != 0)
+                from_above = lane_select(clear, fresnel_of(one, index), from_above);
         }
         const Colours body = surface(base.body) * ((one - facets) * (one - mirror));
         Colours light = body * ambient;
