@@ -99,6 +99,50 @@ public:
         }
         return most;
     }
+    /// Whether all of them stay within the curves of contact and reach from there to the edge, from lo to hi. A sphere does not where
+    /// the wedge grows faster along the edge than the edge goes on, as at the sharp end of a slanting bore.
+    [[nodiscard]] bool are_good(double lo, double hi, int copies) {
+        struct Ball {
+            Vec3 centre;
+            double radius;
+        };
+        std::vector<Ball> balls;
+        std::vector<Touch> touches;
+        std::vector<Vec3> edge;
+        for (double t = std::ceil(lo); t <= hi; t += 1.0) {
+            const auto touch = touch_at(body_, segment_, radius_, t);
+            if (!touch || !at(t)) return false;
+            touches.push_back(*touch);
+            edge.push_back(at(t)->edge);
+            for (int k = 0; k <= std::max(copies, 0); ++k) add(copy(t, k), balls);
+            if (copies >= 0) add(last(t, copies + 1), balls);
+        }
+        const double slack = 16.0 * kContact * radius_;
+        for (const Ball& ball : balls) {
+            for (const Touch& touch : touches) {
+                for (const Vec3 p : touch.contact) {
+                    if (norm(p - ball.centre) < ball.radius - slack) return false;
+                }
+            }
+        }
+        // Places on both faces, from contact to edge.
+        const std::size_t each = balls.size() / std::max<std::size_t>(touches.size(), 1);
+        for (std::size_t i = 0; i < touches.size(); ++i) {
+            for (const Vec3 p : touches[i].contact) {
+                for (const double f : {0.02, 0.2, 0.4, 0.6, 0.8, 1.0}) {
+                    const Vec3 x = p + (edge[i] - p) * f;
+                    const std::size_t from = i > 4 ? i - 4 : 0;
+                    const std::size_t to = std::min(i + 5, touches.size());
+                    const bool is_covered = std::any_of(
+                        balls.begin() + static_cast<std::ptrdiff_t>(from * each),
+                        balls.begin() + static_cast<std::ptrdiff_t>(to * each),
+                        [&](const Ball& b) { return norm(x - b.centre) <= b.radius + slack; });
+                    if (!is_covered) return false;
+                }
+            }
+        }
+        return true;
+    }
     /// Copy number k.
     [[nodiscard]] std::optional<Point<4>> copy(double t, int k) {
         const auto& s = at(t);
@@ -114,6 +158,10 @@ public:
     }
 
 private:
+    template <class Balls>
+    static void add(const std::optional<Point<4>>& sphere, Balls& balls) {
+        if (sphere) balls.push_back({{(*sphere)[0], (*sphere)[1], (*sphere)[2]}, (*sphere)[3]});
+    }
     /// A copy reaches down to its height less two half chords; the next one begins a little higher.
     static constexpr double kCovers = 1.8;
     [[nodiscard]] static double shrink(const EdgeSphere& s) {
@@ -313,6 +361,14 @@ Result<csg::Solid> tube_wedge(const Body& body, const Segment& segment, double r
                               double hi, SourceSpan span) {
     EdgeSpheres spheres(body, segment, radius);
     const int copies = spheres.copies(lo, hi);
+    if (!spheres.are_good(lo, hi, copies)) {
+        return fail(
+            ErrorCode::out_of_range,
+            body.name_of(body.faces()[segment.face_a]) + " and " +
+                body.name_of(body.faces()[segment.face_b]) +
+                " meet at too sharp an angle where their edge bends for a ball of this radius",
+            "take a smaller radius, or let them meet less slantingly");
+    }
     std::vector<csg::Solid> parts;
     for (int k = 0; k <= std::max(copies, 0); ++k) {
         auto part = swept(path_through(segment, lo, hi, kContact * radius,
