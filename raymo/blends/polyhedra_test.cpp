@@ -1,0 +1,137 @@
+// Convex polyhedra with all edges rounded: what balls within them reach, by its definition.
+//
+// The centres of balls of radius r within { n_i.x <= k_i } are those with n_i.x <= k_i - r, and a point is reached when it is
+// no farther than r from these: from its own place, or from its foot on the planes of one, two or three of the faces.
+#include <random>
+
+#include "raymo/blends/test_blends.hpp"
+
+namespace raymo::blends {
+namespace {
+
+using namespace test;
+
+struct Plane {
+    Vec3 normal;
+    double offset;
+};
+
+/// Distance of a point from the centres.
+double from_centres(const std::vector<Plane>& planes, double r, Vec3 p) {
+    double least = std::numeric_limits<double>::infinity();
+    const auto consider = [&](Vec3 c) {
+        for (const Plane& plane : planes) {
+            if (dot(plane.normal, c) > plane.offset - r + 1e-9) return;
+        }
+        least = std::min(least, norm(c - p));
+    };
+    const auto off = [&](const Plane& plane, Vec3 at) {
+        return plane.offset - r - dot(plane.normal, at);
+    };
+    consider(p);
+    for (std::size_t i = 0; i < planes.size(); ++i) {
+        const Plane& a = planes[i];
+        consider(p + a.normal * off(a, p));
+        for (std::size_t k = 0; k < i; ++k) {
+            const Plane& b = planes[k];
+            const Vec3 along = cross(a.normal, b.normal);
+            const Mat3 two{{a.normal, b.normal, along}};
+            if (!is_invertible(two)) continue;
+            consider(p + inverse(two) * Vec3{off(a, p), off(b, p), 0.0});
+            for (std::size_t m = 0; m < k; ++m) {
+                const Plane& c = planes[m];
+                const Mat3 three{{a.normal, b.normal, c.normal}};
+                if (!is_invertible(three)) continue;
+                consider(p + inverse(three) * Vec3{off(a, p), off(b, p), off(c, p)});
+            }
+        }
+    }
+    return least;
+}
+
+/// `size`: a cube about the origin that holds it.
+void check(const std::vector<Plane>& planes, double size, double r, std::size_t edges) {
+    std::mt19937_64 random(7);
+    const auto number = [&](double lo, double hi) {
+        return std::uniform_real_distribution<double>(lo, hi)(random);
+    };
+    for (int frame = 0; frame < 3; ++frame) {
+        Affine map;
+        if (frame > 0) {
+            map = translation({number(-9, 9), number(-9, 9), number(-9, 9)}) *
+                  rotation(unit({number(-1, 1), number(-1, 1), number(0.1, 1)}), number(0, 360));
+        }
+        std::vector<csg::Solid> sides{centred_block(2 * size, 2 * size, 2 * size)};
+        for (const Plane& plane : planes) sides.push_back(halfspace(plane.normal, plane.offset));
+        const csg::Solid solid = mapped(csg::boolean(csg::Op::intersection, sides), map);
+        Traced traced(blended(solid, Edges::convex, ball(r), edges));
+        std::size_t judged = 0;
+        for (int i = 0; i < 20000; ++i) {
+            const Vec3 p{number(-size, size), number(-size, size), number(-size, size)};
+            const double d = from_centres(planes, r, p);
+            if (std::fabs(d - r) < 1e-8) continue;
+            ++judged;
+            const bool is_in = traced.where(map(p)) == solids::Where::in;
+            if (is_in != (d < r)) {
+                CAPTURE(p.x);
+                CAPTURE(p.y);
+                CAPTURE(p.z);
+                CAPTURE(d);
+                FAIL_CHECK("frame " << frame << (is_in ? ": in" : ": out"));
+                break;
+            }
+        }
+        CHECK(judged > 10000);
+    }
+}
+
+TEST_CASE("polyhedra: a tetrahedron") {
+    const double k = 1.0 / std::sqrt(3.0);
+    const std::vector<Plane> planes{
+        {Vec3{k, k, k}, 2}, {Vec3{-k, -k, k}, 2}, {Vec3{-k, k, -k}, 2}, {Vec3{k, -k, -k}, 2}};
+    check(planes, 6, 0.7, 6);
+}
+
+TEST_CASE("polyhedra: a leaning prism with a sharp edge") {
+    const std::vector<Plane> planes{{unit({0, 0.2, 1}), 3},
+                                    {unit({0.1, 0, -1}), 2},
+                                    {unit({0, -1, 0}), 2},
+                                    {unit({-1, 0.6, 0}), 2.5},
+                                    {unit({1, 1, 0.1}), 3}};
+    check(planes, 9, 0.6, 9);
+}
+
+TEST_CASE("polyhedra: a block with its corner cut off") {
+    const std::vector<Plane> planes{
+        {Vec3{1, 0, 0}, 3}, {Vec3{-1, 0, 0}, 3}, {Vec3{0, 1, 0}, 3},        {Vec3{0, -1, 0}, 3},
+        {Vec3{0, 0, 1}, 3}, {Vec3{0, 0, -1}, 3}, {unit({1, 1.2, 0.9}), 3.2}};
+    check(planes, 4, 0.5, 15);
+}
+
+TEST_CASE("polyhedra: the corners of a thin plate are rounded by a larger ball") {
+    // Only its upright edges: a rectangle with round corners, swept up.
+    const double r = 3.0;
+    Form form = ball(r);
+    form.where = move(block(40, 40, 0.5), {-20, -20, 0.75});
+    Traced solid(blended(move(block(16, 10, 2), {-8, -5, 0}), Edges::convex, form, 4));
+    for (double x = 4.03; x < 8.5; x += 0.103) {
+        for (double y = 1.01; y < 5.5; y += 0.101) {
+            const double d = std::hypot(std::max(x - (8 - r), 0.0), std::max(y - (5 - r), 0.0));
+            if (std::fabs(d - r) < 1e-9) continue;
+            const double chord = solid.chord({x, y, -3}, {0, 0, 1});
+            CHECK(chord == near(d < r ? 2.0 : 0.0));
+        }
+    }
+}
+
+TEST_CASE("polyhedra: a radius that is too large names the largest") {
+    const auto refused = blended_edges(centred_block(4, 6, 8), Edges::convex, ball(2.5));
+    REQUIRE(!refused.has_value());
+    CHECK(refused.error().code == ErrorCode::out_of_range);
+    CHECK(refused.error().hint == "the largest radius that works here is 2");
+    CHECK(blended_edges(centred_block(4, 6, 8), Edges::convex, ball(2.0)).has_value());
+    CHECK(!blended_edges(centred_block(4, 6, 8), Edges::convex, ball(2.01)).has_value());
+}
+
+}  // namespace
+}  // namespace raymo::blends
