@@ -203,10 +203,11 @@ Fitting fitting_of(const Body& body, const Segment& segment, double radius) {
         lo = std::min(lo + margin, segment.middle());
         hi = std::max(hi - margin, segment.middle());
     }
-    constexpr int kPlaces = 16;
+    // Along a line or a circle only other faces make a difference, along a curve in space all does.
+    const int places = segment.space ? 192 : 16;
     Vec3 last;
-    for (int i = 0; i < kPlaces; ++i) {
-        const double t = lo + (hi - lo) * (i + 0.5) / kPlaces;
+    for (int i = 0; i < places; ++i) {
+        const double t = lo + (hi - lo) * (i + 0.5) / places;
         const auto touch = touch_at(body, segment, radius, t);
         if (!touch) return {Fit::none, 0};
         // A ball larger than its path's curvature allows runs back.
