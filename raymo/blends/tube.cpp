@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <optional>
 #include <unordered_map>
 
@@ -44,6 +45,10 @@ std::optional<Contact> contact_at(const Body& body, const Segment& segment, doub
                    (after->contact[which] - before->contact[which]) * (0.5 / kStep)};
 }
 
+/// A sphere's centre is at least this part of half the chord off it, so that the edge between faces at right angles, for one,
+/// is well within.
+constexpr double kLeast = 0.125;
+
 /// The sphere that holds both curves of contact, the first at t.
 struct EdgeSphere {
     Vec3 centre;
@@ -51,6 +56,8 @@ struct EdgeSphere {
     Vec3 edge;            ///< the point of the edge there
     double chord = 0.0;   ///< half the chord, h
     double height = 0.0;  ///< of the chord's middle above the edge
+    double covers =
+        0.0;  ///< how much of the way from the contacts to the edge lies within it; 1: all
 };
 std::optional<EdgeSphere> edge_sphere(const Body& body, const Segment& segment, double radius,
                                       double t) {
@@ -65,16 +72,30 @@ std::optional<EdgeSphere> edge_sphere(const Body& body, const Segment& segment, 
         const Vec3 to_edge = unit(p->normal + q->normal) * -segment.sign();
         const Mat3 m{{unit(p->way), chord, to_edge}};
         if (!is_invertible(m)) return std::nullopt;
+        // The angle between the chord and the faces, less 45 degrees.
+        const double steepest =
+            std::max(std::fabs(dot(chord, p->normal)), std::fabs(dot(chord, q->normal)));
+        const double excess =
+            std::asin(std::min(steepest / (2.0 * half), 1.0)) - 0.25 * std::numbers::pi;
+        const double shift = half * (kLeast + std::tan(std::max(excess, 0.0)));
         const Vec3 from_p =
-            inverse(m) * Vec3{0.0, 0.5 * dot(chord, chord), 0.5 * dot(to_edge, chord) + half};
+            inverse(m) * Vec3{0.0, 0.5 * dot(chord, chord), 0.5 * dot(to_edge, chord) + shift};
         const Vec3 centre = p->point + from_p;
         const double speed = norm(q->way);
         const double off = dot(centre - q->point, q->way) / (speed * speed);
         if (!std::isfinite(off)) return std::nullopt;
         if (std::fabs(off) * speed <= 0x1p-40 * radius || i == 59) {
             const Vec3 edge = segment.point(t);
-            return EdgeSphere{centre, norm(from_p), edge, half,
-                              norm(p->point + chord * 0.5 - edge)};
+            const auto covered = [&](Vec3 contact) {
+                const Vec3 way = edge - contact;
+                return 2.0 * dot(centre - contact, way) / dot(way, way);
+            };
+            return EdgeSphere{centre,
+                              norm(from_p),
+                              edge,
+                              half,
+                              norm(p->point + chord * 0.5 - edge),
+                              std::min(covered(p->point), covered(q->point))};
         }
         there += off;
     }
@@ -92,7 +113,7 @@ public:
         int most = -1;
         for (double t = std::ceil(lo); t <= hi; t += 1.0) {
             const auto& s = at(t);
-            if (!s || s->height <= kCovers * s->chord) continue;
+            if (!s || s->covers >= 1.0) continue;
             int count = 0;
             for (double f = shrink(*s); f * s->height > 2.0 * s->chord; f *= shrink(*s)) ++count;
             most = std::max(most, count);
@@ -109,7 +130,9 @@ public:
         std::vector<Ball> balls;
         std::vector<Touch> touches;
         std::vector<Vec3> edge;
-        for (double t = std::ceil(lo); t <= hi; t += 1.0) {
+        // Some hundred places tell.
+        const double stride = std::max(1.0, std::floor((hi - lo) / 512.0));
+        for (double t = std::ceil(lo); t <= hi; t += stride) {
             const auto touch = touch_at(body_, segment_, radius_, t);
             if (!touch || !at(t)) return false;
             touches.push_back(*touch);
@@ -117,6 +140,7 @@ public:
             for (int k = 0; k <= std::max(copies, 0); ++k) add(copy(t, k), balls);
             if (copies >= 0) add(last(t, copies + 1), balls);
         }
+        if (touches.empty()) return false;
         const double slack = 16.0 * kContact * radius_;
         for (const Ball& ball : balls) {
             for (const Touch& touch : touches) {
@@ -125,19 +149,24 @@ public:
                 }
             }
         }
-        // Places on both faces, from contact to edge.
-        const std::size_t each = balls.size() / std::max<std::size_t>(touches.size(), 1);
-        for (std::size_t i = 0; i < touches.size(); ++i) {
-            for (const Vec3 p : touches[i].contact) {
+        // Places on both faces, from contact to edge; mostly it is a ball from nearby that holds them.
+        const auto each = static_cast<std::ptrdiff_t>(balls.size() / touches.size());
+        const auto covered = [&](Vec3 x, std::ptrdiff_t from, std::ptrdiff_t to) {
+            return std::any_of(balls.begin() + from, balls.begin() + to, [&](const Ball& b) {
+                return norm(x - b.centre) <= b.radius + slack;
+            });
+        };
+        const auto count = static_cast<std::ptrdiff_t>(touches.size());
+        for (std::ptrdiff_t i = 0; i < count; ++i) {
+            const auto at = static_cast<std::size_t>(i);
+            for (const Vec3 p : touches[at].contact) {
                 for (const double f : {0.02, 0.2, 0.4, 0.6, 0.8, 1.0}) {
-                    const Vec3 x = p + (edge[i] - p) * f;
-                    const std::size_t from = i > 4 ? i - 4 : 0;
-                    const std::size_t to = std::min(i + 5, touches.size());
-                    const bool is_covered = std::any_of(
-                        balls.begin() + static_cast<std::ptrdiff_t>(from * each),
-                        balls.begin() + static_cast<std::ptrdiff_t>(to * each),
-                        [&](const Ball& b) { return norm(x - b.centre) <= b.radius + slack; });
-                    if (!is_covered) return false;
+                    const Vec3 x = p + (edge[at] - p) * f;
+                    if (!covered(x, std::max<std::ptrdiff_t>(i - 4, 0) * each,
+                                 std::min(i + 5, count) * each) &&
+                        !covered(x, 0, count * each)) {
+                        return false;
+                    }
                 }
             }
         }
@@ -162,10 +191,9 @@ private:
     static void add(const std::optional<Point<4>>& sphere, Balls& balls) {
         if (sphere) balls.push_back({{(*sphere)[0], (*sphere)[1], (*sphere)[2]}, (*sphere)[3]});
     }
-    /// A copy reaches down to its height less two half chords; the next one begins a little higher.
-    static constexpr double kCovers = 1.8;
+    /// The next copy begins a little before this one ends.
     [[nodiscard]] static double shrink(const EdgeSphere& s) {
-        return std::max(1.0 - kCovers * s.chord / s.height, 0x1p-6);
+        return std::max(1.0 - 0.9 * s.covers, 0x1p-6);
     }
     const std::optional<EdgeSphere>& at(double t) {
         const auto [place, is_new] = known_.try_emplace(t);
