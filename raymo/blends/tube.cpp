@@ -115,7 +115,10 @@ public:
             const auto& s = at(t);
             if (!s || s->covers >= 1.0) continue;
             int count = 0;
-            for (double f = shrink(*s); f * s->height > 2.0 * s->chord; f *= shrink(*s)) ++count;
+            for (double f = shrink(*s); f * s->height > 2.0 * s->chord && count <= kMostCopies;
+                 f *= shrink(*s)) {
+                ++count;
+            }
             most = std::max(most, count);
         }
         return most;
@@ -123,6 +126,7 @@ public:
     /// Whether all of them stay within the curves of contact and reach from there to the edge, from lo to hi. A sphere does not where
     /// the wedge grows faster along the edge than the edge goes on, as at the sharp end of a slanting bore.
     [[nodiscard]] bool are_good(double lo, double hi, int copies) {
+        if (copies > kMostCopies) return false;
         struct Ball {
             Vec3 centre;
             double radius;
@@ -191,6 +195,8 @@ private:
     static void add(const std::optional<Point<4>>& sphere, Balls& balls) {
         if (sphere) balls.push_back({{(*sphere)[0], (*sphere)[1], (*sphere)[2]}, (*sphere)[3]});
     }
+    /// More of them mean that the faces are nearly parallel.
+    static constexpr int kMostCopies = 6;
     /// The next copy begins a little before this one ends.
     [[nodiscard]] static double shrink(const EdgeSphere& s) {
         return std::max(1.0 - 0.9 * s.covers, 0x1p-6);
