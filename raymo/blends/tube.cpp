@@ -163,9 +163,13 @@ public:
         const auto count = static_cast<std::ptrdiff_t>(touches.size());
         for (std::ptrdiff_t i = 0; i < count; ++i) {
             const auto at = static_cast<std::size_t>(i);
-            for (const Vec3 p : touches[at].contact) {
-                for (const double f : {0.02, 0.2, 0.4, 0.6, 0.8, 1.0}) {
-                    const Vec3 x = p + (edge[at] - p) * f;
+            for (std::size_t which = 0; which < 2; ++which) {
+                const Surface& face =
+                    body_.faces()[which == 0 ? segment_.face_a : segment_.face_b].surface;
+                const Vec3 p = touches[at].contact[which];
+                for (int k = 1; k <= 16; ++k) {
+                    Vec3 x = p + (edge[at] - p) * (k / 16.0);
+                    x = x - face.normal(x) * face.distance(x);
                     if (!covered(x, std::max<std::ptrdiff_t>(i - 4, 0) * each,
                                  std::min(i + 5, count) * each) &&
                         !covered(x, 0, count * each)) {
