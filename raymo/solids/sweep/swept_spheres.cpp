@@ -67,24 +67,6 @@ void cut_into_pieces(const SweptSpan& span, std::vector<SweptPiece>& out) {
     }
 }
 
-float below(double x) {
-    return std::nextafter(static_cast<float>(x - kBoxMargin), -std::numeric_limits<float>::max());
-}
-float above(double x) {
-    return std::nextafter(static_cast<float>(x + kBoxMargin), std::numeric_limits<float>::max());
-}
-
-SweptNode empty_node() {
-    SweptNode node;
-    for (std::size_t a = 0; a < 3; ++a) {
-        std::fill(std::begin(node.lo[a]), std::end(node.lo[a]),
-                  std::numeric_limits<float>::infinity());
-        std::fill(std::begin(node.hi[a]), std::end(node.hi[a]),
-                  -std::numeric_limits<float>::infinity());
-    }
-    return node;
-}
-
 }  // namespace
 
 double reach(const Cubics& q, Vec3 n, double length) {
@@ -122,19 +104,14 @@ void SweptSpheres::finish() {
         pieces.back().ends = true;
     }
     constexpr std::size_t kWidth = SweptNode::kWidth;
-    std::vector<SweptNode> lowest((pieces.size() + kWidth - 1) / kWidth, empty_node());
+    std::vector<SweptNode> lowest((pieces.size() + kWidth - 1) / kWidth);
     for (std::size_t i = 0; i < pieces.size(); ++i) {
-        const Aabb box = box_of(pieces[i].cubics);
-        SweptNode& node = lowest[i / kWidth];
-        for (int a = 0; a < 3; ++a) {
-            node.lo[a][i % kWidth] = below(box.lo[a]);
-            node.hi[a][i % kWidth] = above(box.hi[a]);
-        }
+        lowest[i / kWidth].set(i % kWidth, box_of(pieces[i].cubics));
     }
     levels.push_back(std::move(lowest));
     while (levels.back().size() > 1) {
         const std::vector<SweptNode>& under = levels.back();
-        std::vector<SweptNode> level((under.size() + kWidth - 1) / kWidth, empty_node());
+        std::vector<SweptNode> level((under.size() + kWidth - 1) / kWidth);
         for (std::size_t i = 0; i < under.size(); ++i) {
             for (std::size_t a = 0; a < 3; ++a) {
                 level[i / kWidth].lo[a][i % kWidth] =

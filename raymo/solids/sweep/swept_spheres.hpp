@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "raymo/math/aabb.hpp"
+#include "raymo/solids/slabs.hpp"
 #include "raymo/solids/sweep/cubics.hpp"
 
 namespace raymo::solids {
@@ -32,11 +33,7 @@ struct SweptPiece {
 };
 
 /// Boxes of up to eight neighbours in the order of the path.
-struct SweptNode {
-    static constexpr std::size_t kWidth = 8;
-    float lo[3][kWidth];
-    float hi[3][kWidth];
-};
+using SweptNode = EightBoxes;
 
 /// Immutable once built, and shared by the copies of a kernel.
 struct SweptSpheres {
@@ -61,10 +58,6 @@ struct SweptSpheres {
                caps == other.caps;
     }
 };
-
-/// By so much the boxes of the tree are larger than what they hold: the rounding of floats, in the products of the slab
-/// test too, of numbers below 4.
-inline constexpr double kBoxMargin = 0x1p-18;
 
 /// Box of the spheres; flat caps are not looked at.
 [[nodiscard]] Aabb box_of(const Cubics& cubics);
