@@ -74,4 +74,10 @@ Result<drawings::DrawingPtr> Drawings::drawing(const std::string& from, const st
     return drawings_[key] = drawing;
 }
 
+Result<std::string> Drawings::text(const std::string& from, const std::string& path) const {
+    if (!host_.load) return fail(ErrorCode::io, "files can not be read here");
+    std::string resolved;
+    return host_.load(from, path, resolved);
+}
+
 }  // namespace raymo::sml

@@ -23,6 +23,9 @@ public:
                                                        const std::string& path,
                                                        const drawings::GoOn& go_on);
 
+    /// What is in the file that the file `from` calls `path`. Error: as the host says.
+    [[nodiscard]] Result<std::string> text(const std::string& from, const std::string& path) const;
+
 private:
     /// Where a name is relative to, and the name.
     using Key = std::pair<std::string, std::string>;

@@ -90,6 +90,12 @@ bool Evaluator::made(curves::PathPtr path, NodeId site, Value& out) {
     return worked(bytes / 64.0, site);
 }
 
+bool Evaluator::made(meshes::Mesh mesh, NodeId site, Value& out) {
+    const double bytes = meshes::bytes_of(mesh);
+    out = Value::object(new MeshObject(std::make_shared<const meshes::Mesh>(std::move(mesh))));
+    return worked(bytes / 64.0, site);
+}
+
 csg::MaterialId Evaluator::material(const scene::Material& m) {
     std::uint64_t hash = std::hash<std::string>()(m.name);
     for (const double x : {m.color.x, m.color.y, m.color.z, m.diffuse, m.specular, m.roughness,
@@ -184,6 +190,7 @@ bool Evaluator::exec_expression(const Node& n, NodeId id) {
                        fmt::format("{} stands alone: it does nothing", kind_text(value)),
                        value.is(Tag::contour) ? "make a solid of it: prism(contour, height)"
                        : value.is(Tag::path)  ? "make a solid of it: sweep(path)"
+                       : value.is(Tag::mesh)  ? "make a solid of it: smooth(mesh)"
                                               : "give it a name with `let`, or print() it");
     } else {
         reporter_.warn(span(node), "this value is not used",
@@ -213,6 +220,7 @@ bool Evaluator::exec_part(const Node& n) {
         return fail(ErrorCode::bad_argument, span(node), "a part must be a solid",
                     value.is(Tag::contour) ? "make a solid of it: prism(contour, height)"
                     : value.is(Tag::path)  ? "make a solid of it: sweep(path)"
+                    : value.is(Tag::mesh)  ? "make a solid of it: smooth(mesh)"
                                            : "",
                     fmt::format("this is {}", kind_text(value)));
     }

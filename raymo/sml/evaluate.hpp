@@ -75,6 +75,7 @@ public:
     /// A new contour as a value. `bytes`: what was made for it.
     bool made(curves::Contour contour, double bytes, NodeId site, Value& out);
     bool made(curves::PathPtr path, NodeId site, Value& out);
+    bool made(meshes::Mesh mesh, NodeId site, Value& out);
     /// A Boolean of contours.
     bool combine(curves::ContourOp op, std::vector<curves::Contour> operands, NodeId site,
                  Value& out);

@@ -67,6 +67,7 @@ std::string_view remedy(Operator op, const Value& a, const Value& b) {
         return "make a solid of the contour first: prism(contour, height)";
     if (has_path && (has_solid || has_contour || (a.is(Tag::path) && b.is(Tag::path))))
         return "make a solid of the path first: sweep(path)";
+    if (a.is(Tag::mesh) || b.is(Tag::mesh)) return "make a solid of the mesh first: smooth(mesh)";
     if ((a.is(Tag::solid) || a.is(Tag::contour)) && b.is(Tag::list)) return "use union(list)";
     if (op == Operator::intersect && !has_solid && !has_contour && !has_path)
         return "`&` intersects solids; to join conditions, write `and`";
@@ -278,6 +279,12 @@ bool Evaluator::equal(const Value& a, const Value& b, NodeId site, bool& out) {
         case Tag::path: {
             const auto& x = a.as<PathObject>().value;
             const auto& y = b.as<PathObject>().value;
+            out = x == y || *x == *y;
+            return true;
+        }
+        case Tag::mesh: {
+            const auto& x = a.as<MeshObject>().value;
+            const auto& y = b.as<MeshObject>().value;
             out = x == y || *x == *y;
             return true;
         }

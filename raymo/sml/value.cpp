@@ -43,6 +43,9 @@ void free_object(Object* object) {
         case Tag::path:
             delete static_cast<PathObject*>(object);
             return;
+        case Tag::mesh:
+            delete static_cast<MeshObject*>(object);
+            return;
         case Tag::material:
             delete static_cast<MaterialObject*>(object);
             return;
@@ -219,11 +222,20 @@ PathObject::~PathObject() {
                             (value.use_count() == 1 ? curves::bytes_of(*value) : 0.0));
 }
 
+MeshObject::MeshObject(meshes::MeshPtr m) : Object(Tag::mesh), value(std::move(m)) {
+    Heap::current().charge(sizeof(MeshObject) + kBlock + meshes::bytes_of(*value));
+}
+MeshObject::~MeshObject() {
+    Heap::current().release(sizeof(MeshObject) + kBlock +
+                            (value.use_count() == 1 ? meshes::bytes_of(*value) : 0.0));
+}
+
 std::string_view kind_text(const Value& value) {
     static constexpr auto kTexts = std::to_array<std::string_view>(
-        {"no value", "nothing", "a boolean", "a number", "a function", "a solid", "a string",
-         "a list", "a record", "a range", "a function", "a function", "a contour", "a path",
-         "a material", "a transform", "a camera", "a light", "a variable"});
+        {"no value",   "nothing",     "a boolean", "a number", "a function",
+         "a solid",    "a string",    "a list",    "a record", "a range",
+         "a function", "a function",  "a contour", "a path",   "a mesh",
+         "a material", "a transform", "a camera",  "a light",  "a variable"});
     return kTexts[static_cast<std::size_t>(value.tag())];
 }
 

@@ -17,6 +17,7 @@
 #include "raymo/curves/contour.hpp"
 #include "raymo/curves/path.hpp"
 #include "raymo/math/affine.hpp"
+#include "raymo/meshes/mesh.hpp"
 #include "raymo/scene/camera.hpp"
 #include "raymo/scene/light.hpp"
 #include "raymo/scene/material.hpp"
@@ -40,6 +41,7 @@ enum class Tag : std::uint8_t {
     random,
     contour,
     path,
+    mesh,
     material,
     transform,
     camera,
@@ -248,6 +250,11 @@ struct PathObject : Object {
     explicit PathObject(curves::PathPtr p);
     ~PathObject();
     curves::PathPtr value;
+};
+struct MeshObject : Object {
+    explicit MeshObject(meshes::MeshPtr m);
+    ~MeshObject();
+    meshes::MeshPtr value;
 };
 template <class T, Tag kTag>
 struct BoxObject : Object {

@@ -9,6 +9,7 @@
 #pragma once
 
 #include <cmath>
+#include <concepts>
 #include <cstdint>
 #include <cstdio>
 #include <limits>
@@ -17,6 +18,7 @@
 #include <vector>
 
 #include "raymo/math/tolerance.hpp"
+#include "raymo/solids/freeform/test_field.hpp"
 #include "raymo/solids/inventory.hpp"
 #include "raymo/solids/sweep/test_field.hpp"
 #include "raymo/solids/test_contour_field.hpp"
@@ -82,6 +84,12 @@ inline Quad field(const Revolve::Kernel& k, const QuadPoint& p) {
         if (depth > 0) return depth;
     }
     return quad_inside(k.region(), quad_sqrt(p.x * p.x + p.y * p.y), p.z) ? -1 : 1;
+}
+
+/// What a kernel may be off by beside what it was told, with room.
+template <class K>
+double own_error(const K&) {
+    return std::derived_from<K, Freeform> ? 16.0 * kFreeformOwnError : 64.0 * kUnitRoundoff;
 }
 
 class Random {
@@ -174,6 +182,9 @@ Probe make_probe(const K& kernel, Random& random) {
         if (random.chance(0.4) && surface_point(kernel, random, at, normal)) {
             p = at;
             d = cross(unit(normal), random.chance(0.5) ? random.direction() : Vec3{0, 0, 1});
+        }
+        if constexpr (requires { aim(kernel, random, p, d); }) {
+            if (random.chance(0.6)) aim(kernel, random, p, d);
         }
         p += random.in_cube(1) * random.small();
         d += random.in_cube(1) * random.small();
@@ -274,8 +285,8 @@ void judge(const K& kernel, const Probe& probe, Tally& tally) {
         last = span.exit.s;
     }
     // Points along the line that are clearly inside or outside.
-    const Vec3 margin = Vec3{probe.ray.ex, probe.ray.ey, probe.ray.ez} * 16.0 +
-                        Vec3{1, 1, 1} * (64.0 * kUnitRoundoff);
+    const Vec3 margin =
+        Vec3{probe.ray.ex, probe.ray.ey, probe.ray.ez} * 16.0 + Vec3{1, 1, 1} * own_error(kernel);
     const auto covered = [&](double s) {
         for (std::size_t i = 0; i < spans.size(); ++i) {
             if (spans[i].enter.s <= s && s <= spans[i].exit.s) return true;
@@ -283,6 +294,12 @@ void judge(const K& kernel, const Probe& probe, Tally& tally) {
         return false;
     };
     const auto judge_point = [&](double s) {
+        // Ends are judged by their errors, above.
+        for (std::size_t i = 0; i < spans.size(); ++i) {
+            for (const SpanEnd& end : {spans[i].enter, spans[i].exit}) {
+                if (std::fabs(s - end.s) <= end.error) return;
+            }
+        }
         const QuadPoint q = probe.at(s);
         const double far = std::max(1.0, std::fabs(s) * length);
         const Where where = kernel.where(

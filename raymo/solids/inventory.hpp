@@ -8,10 +8,12 @@
 #include "raymo/solids/conic/conic.hpp"
 #include "raymo/solids/cylinder/cylinder.hpp"
 #include "raymo/solids/halfspace/halfspace.hpp"
+#include "raymo/solids/patches/patches.hpp"
 #include "raymo/solids/primitive.hpp"
 #include "raymo/solids/prism/prism.hpp"
 #include "raymo/solids/quadric/quadric.hpp"
 #include "raymo/solids/revolve/revolve.hpp"
+#include "raymo/solids/smooth/smooth.hpp"
 #include "raymo/solids/sphere/sphere.hpp"
 #include "raymo/solids/sweep/sweep.hpp"
 #include "raymo/solids/torus/torus.hpp"
@@ -29,8 +31,8 @@ struct List {
     }
 };
 
-using Inventory =
-    List<Block, Sphere, Cylinder, Cone, Torus, Halfspace, Quadric, Prism, Conic, Revolve, Sweep>;
+using Inventory = List<Block, Sphere, Cylinder, Cone, Torus, Halfspace, Quadric, Prism, Conic,
+                       Revolve, Sweep, Smooth, Patches>;
 
 /// Any kernel of the inventory.
 using AnyKernel = Inventory::Kernels;

@@ -13,6 +13,8 @@
 #include "raymo/curves/outline.hpp"
 #include "raymo/curves/path.hpp"
 #include "raymo/math/vec.hpp"
+#include "raymo/meshes/mesh.hpp"
+#include "raymo/meshes/sew.hpp"
 
 namespace raymo::solids {
 
@@ -27,13 +29,15 @@ enum class ParamKind : unsigned char {
     contour,  ///< closed curves of the plane
     profile,  ///< curves of the half-plane beside an axis, of which one may be open
     path,     ///< spheres along a curve in space
+    mesh,     ///< faces between points
+    nets,     ///< nets of 4x4 control points
     choice,   ///< one of `choices`
 };
 
 using Matrix4 = std::array<double, 16>;
 /// A choice is the number of the word among the choices.
-using Argument =
-    std::variant<double, bool, Vec3, Matrix4, curves::OutlinePtr, curves::PathPtr, std::size_t>;
+using Argument = std::variant<double, bool, Vec3, Matrix4, curves::OutlinePtr, curves::PathPtr,
+                              meshes::MeshPtr, meshes::NetsPtr, std::size_t>;
 
 struct Param {
     std::string_view name;   ///< as written in the language

@@ -61,6 +61,10 @@ std::string kind_words(const Param& param) {
             return "contour, or an open curve that is closed along the axis";
         case ParamKind::path:
             return "path";
+        case ParamKind::mesh:
+            return "mesh";
+        case ParamKind::nets:
+            return "list of nets, each of four rows of four points";
         case ParamKind::choice:
             return choice_words(param);
     }

@@ -7,7 +7,9 @@
 #include <numbers>
 #include <unordered_map>
 
+#include "raymo/meshes/smooth.hpp"
 #include "tests/laws/contour.hpp"
+#include "tests/laws/shell.hpp"
 
 namespace raymo::laws {
 namespace {
@@ -61,6 +63,8 @@ std::vector<solids::Argument> arguments(const Model& m) {
         }
         return {curves::PathPtr(std::move(path)), std::size_t{0}};
     }
+    if (m.primitive == "smooth") return {m.mesh};
+    if (m.primitive == "patches") return {m.nets, std::size_t{0}};
     solids::Matrix4 matrix{};
     for (std::size_t i = 0; i < 16; ++i) matrix[i] = n[i];
     return {matrix};
@@ -258,6 +262,20 @@ ModelPtr revolve(curves::OutlinePtr outline, double angle) {
     return swept("revolve", std::move(outline), {angle});
 }
 ModelPtr sweep(std::vector<double> control) { return leaf("sweep", std::move(control)); }
+ModelPtr smooth(meshes::Mesh mesh) {
+    auto model = std::make_shared<Model>();
+    model->primitive = "smooth";
+    model->shell = std::make_shared<const meshes::Shell>(meshes::smooth(mesh).value());
+    model->mesh = std::make_shared<const meshes::Mesh>(std::move(mesh));
+    return model;
+}
+ModelPtr patches(std::vector<meshes::GivenNet> nets) {
+    auto model = std::make_shared<Model>();
+    model->primitive = "patches";
+    model->shell = std::make_shared<const meshes::Shell>(meshes::sew(nets).value());
+    model->nets = std::make_shared<const std::vector<meshes::GivenNet>>(std::move(nets));
+    return model;
+}
 ModelPtr moved(ModelPtr child, const Affine& map) {
     auto model = std::make_shared<Model>();
     model->is_moved = true;
@@ -285,6 +303,7 @@ csg::Solid build(const ModelPtr& model) {
 Side classify(const Model& m, const RealPoint& p, Real margin) {
     if (m.primitive == "quadric") return classify_quadric(m, p, margin);
     if (m.outline != nullptr) return classify_swept(m, p, margin);
+    if (m.shell != nullptr) return classify(*m.shell, p, margin);
     if (!m.primitive.empty()) return side_of(signed_distance(m, p), margin);
     if (m.is_moved) {
         const RealMap& back = m.back;

@@ -35,6 +35,9 @@ struct Model {
     std::string primitive;  ///< empty for the others
     std::vector<double> numbers;
     curves::OutlinePtr outline;  ///< of a sweep
+    meshes::MeshPtr mesh;        ///< of a smoothed one
+    meshes::NetsPtr nets;        ///< of patches
+    meshes::ShellPtr shell;      ///< of both: the surface that is judged
     bool centred = false;
     Affine map;  ///< with one child and no primitive: the child is moved
     bool is_moved = false;
@@ -55,6 +58,9 @@ struct Model {
 [[nodiscard]] ModelPtr revolve(curves::OutlinePtr outline, double angle);
 /// Balls along cubics: x, y, z and radius of four control points for each span.
 [[nodiscard]] ModelPtr sweep(std::vector<double> control);
+[[nodiscard]] ModelPtr smooth(meshes::Mesh mesh);
+/// Bezier nets.
+[[nodiscard]] ModelPtr patches(std::vector<meshes::GivenNet> nets);
 [[nodiscard]] ModelPtr moved(ModelPtr child, const Affine& map);
 [[nodiscard]] ModelPtr moved(ModelPtr child, Vec3 by);
 [[nodiscard]] ModelPtr join(ModelPtr a, ModelPtr b);

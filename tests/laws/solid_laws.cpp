@@ -4,6 +4,7 @@
 #include "raymo/solids/conformance.hpp"
 #include "tests/laws/contour.hpp"
 #include "tests/laws/rays.hpp"
+#include "tests/laws/shell.hpp"
 
 namespace raymo::laws {
 namespace {
@@ -71,6 +72,8 @@ ModelPtr solid(const std::string& name, Random& random) {
                        random.chance(0.5) ? 360.0 : random.uniform(1, 359));
     }
     if (name == "sweep") return any_sweep(random);
+    if (name == "smooth") return smooth(random_mesh(random));
+    if (name == "patches") return patches(random_nets(random));
     solids::Matrix4 m{};
     for (std::size_t i = 0; i < 4; ++i) {
         for (std::size_t j = 0; j <= i; ++j) {

@@ -80,6 +80,7 @@ struct GivenArgument {
 [[nodiscard]] std::span<const BuiltinRow> blend_rows();
 [[nodiscard]] std::span<const BuiltinRow> contour_rows();
 [[nodiscard]] std::span<const BuiltinRow> path_rows();
+[[nodiscard]] std::span<const BuiltinRow> mesh_rows();
 [[nodiscard]] std::span<const BuiltinRow> drawing_rows();
 [[nodiscard]] std::span<const BuiltinRow> transform_rows();
 [[nodiscard]] std::span<const BuiltinRow> arrangement_rows();

@@ -190,6 +190,15 @@ bool Call::path(std::size_t i, curves::PathPtr& out) {
                       is_list ? "path(points, radius: r) makes one of a list of points" : "");
 }
 
+bool Call::mesh(std::size_t i, meshes::MeshPtr& out) {
+    if (has(i) && slots_[i].is(Tag::mesh)) {
+        out = slots_[i].as<MeshObject>().value;
+        return true;
+    }
+    const bool is_list = has(i) && slots_[i].is(Tag::list);
+    return wrong_kind(i, "a mesh", is_list ? "mesh(points, faces) makes one of two lists" : "");
+}
+
 bool Call::vector2(std::size_t i, Vec2& out) {
     if (has(i) && is_vector2(slots_[i], out)) return true;
     if (has(i) && slots_[i].is(Tag::list)) {

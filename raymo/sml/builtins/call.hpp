@@ -7,6 +7,7 @@
 
 #include "raymo/curves/build_spline.hpp"
 #include "raymo/math/vec2.hpp"
+#include "raymo/meshes/sew.hpp"
 #include "raymo/sml/evaluate.hpp"
 
 namespace raymo::sml {
@@ -58,6 +59,7 @@ public:
     bool solid(std::size_t i, csg::Solid& out);
     bool contour(std::size_t i, curves::Contour& out);
     bool path(std::size_t i, curves::PathPtr& out);
+    bool mesh(std::size_t i, meshes::MeshPtr& out);
     /// Two numbers, (x, y).
     bool vector2(std::size_t i, Vec2& out);
     /// A list of points of the plane.
@@ -106,6 +108,8 @@ private:
     std::uint32_t first_;
 };
 
+/// A list of nets of 4x4 points.
+bool take_nets(Call& call, std::size_t i, meshes::NetsPtr& out);
 /// The arguments `degree` and `ends` of a spline, where they are given; `form` has its kind and whether it is closed.
 bool spline_degree(Call& call, std::size_t i, curves::SplineForm& form);
 bool spline_ends(Call& call, std::size_t i, curves::SplineForm& form);

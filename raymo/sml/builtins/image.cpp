@@ -82,8 +82,25 @@ bool apply_to_path(Call& call, const curves::Path& path, const Affine& map, std:
                                  call.node(), out);
 }
 
+bool apply_to_mesh(Call& call, const meshes::Mesh& mesh, const Affine& map, std::size_t blame,
+                   Value& out) {
+    if (!is_invertible(map.linear) || !is_finite(map.offset)) {
+        return call.fail(blame, ErrorCode::singular, "it makes the mesh flat",
+                         "no scale may be 0, and the axes must keep different directions");
+    }
+    if (!call.evaluator().room(meshes::bytes_of(mesh), call.node())) return false;
+    meshes::Mesh image = meshes::mapped(mesh, map);
+    if (!(meshes::extent_of(image) <= meshes::kLargestPoint)) {
+        return call.fail(blame, ErrorCode::out_of_range,
+                         "the mesh becomes too large to be computed with",
+                         "stay within 1e90 of the origin");
+    }
+    return call.evaluator().made(std::move(image), call.node(), out);
+}
+
 bool is_shape(const Value& value) {
-    return value.is(Tag::solid) || value.is(Tag::contour) || value.is(Tag::path);
+    return value.is(Tag::solid) || value.is(Tag::contour) || value.is(Tag::path) ||
+           value.is(Tag::mesh);
 }
 
 bool apply_to_shape(Call& call, const Value& shape, const Affine& map, std::size_t blame,
@@ -92,6 +109,8 @@ bool apply_to_shape(Call& call, const Value& shape, const Affine& map, std::size
         return apply_to_contour(call, shape.as<ContourObject>().value, map, blame, out);
     if (shape.is(Tag::path))
         return apply_to_path(call, *shape.as<PathObject>().value, map, blame, out);
+    if (shape.is(Tag::mesh))
+        return apply_to_mesh(call, *shape.as<MeshObject>().value, map, blame, out);
     return call.result(csg::transform(shape.solid(), map, call.span()), out);
 }
 
@@ -121,7 +140,7 @@ bool apply(Call& call, Value& shape, const Affine& map, std::size_t blame, Value
         out = Value::list(std::move(items));
         return true;
     }
-    return call.wrong_kind(0, "a solid, a contour or a path",
+    return call.wrong_kind(0, "a solid, a contour, a path or a mesh",
                            "write solid." + call.name() + "(...)");
 }
 

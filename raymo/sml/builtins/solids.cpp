@@ -98,6 +98,27 @@ bool take(Call& call, const solids::Param& param, std::size_t slot, std::size_t 
             out = std::move(path);
             return true;
         }
+        case solids::ParamKind::mesh: {
+            meshes::MeshPtr mesh;
+            if (!call.mesh(slot, mesh)) return false;
+            // Two refinements, the patches that come of them, and their leaves.
+            const auto corners = static_cast<double>(mesh->corners.size());
+            if (!call.evaluator().room(40e3 * corners, call.node()) ||
+                !call.evaluator().worked(1e4 * corners, call.node()))
+                return false;
+            out = std::move(mesh);
+            return true;
+        }
+        case solids::ParamKind::nets: {
+            meshes::NetsPtr nets;
+            if (!take_nets(call, slot, nets)) return false;
+            const auto count = static_cast<double>(nets->size());
+            if (!call.evaluator().room(10e3 * count, call.node()) ||
+                !call.evaluator().worked(2e3 * count, call.node()))
+                return false;
+            out = std::move(nets);
+            return true;
+        }
         case solids::ParamKind::choice: {
             std::size_t chosen = 0;
             if (!call.choice(slot, param.choices, chosen)) return false;

@@ -94,8 +94,8 @@ struct Table {
         }
         for (const auto topic :
              {number_rows(), vector_rows(), list_rows(), text_rows(), solid_rows(), blend_rows(),
-              contour_rows(), path_rows(), drawing_rows(), transform_rows(), arrangement_rows(),
-              look_rows(), question_rows()}) {
+              contour_rows(), path_rows(), mesh_rows(), drawing_rows(), transform_rows(),
+              arrangement_rows(), look_rows(), question_rows()}) {
             for (const BuiltinRow& row : topic) {
                 Builtin b;
                 b.takes = parse_parameters(row.name, row.parameters);

@@ -7,9 +7,8 @@
 namespace raymo::sml {
 
 std::span<const std::string_view> unavailable_names() {
-    static constexpr auto kNames =
-        std::to_array<std::string_view>({"smooth", "patches", "mesh", "volume", "area", "centroid",
-                                         "inertia", "clearance", "overlaps"});
+    static constexpr auto kNames = std::to_array<std::string_view>(
+        {"volume", "area", "centroid", "inertia", "clearance", "overlaps"});
     return kNames;
 }
 

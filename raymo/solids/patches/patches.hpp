@@ -1,0 +1,20 @@
+// Bicubic patches that close up, given by their control points. How rays meet them: solids/freeform/. Ref: [Wijk86 6.2].
+#pragma once
+
+#include "raymo/solids/freeform/freeform.hpp"
+
+namespace raymo::solids {
+
+struct Patches {
+    class Kernel : public Freeform {
+    public:
+        using Freeform::Freeform;
+        explicit Kernel(Freeform solid) : Freeform(std::move(solid)) {}
+    };
+
+    [[nodiscard]] static const Schema& schema();
+    [[nodiscard]] static Result<Placed<Kernel>> prepare(std::span<const Argument> arguments);
+    [[nodiscard]] static std::span<const std::vector<Argument>> examples();
+};
+
+}  // namespace raymo::solids
