@@ -75,6 +75,9 @@ inline constexpr int kConvexLeaves = 5, kLaneLeaves = 8, kAllLeaves = 9;
 /// A swept or turned contour, or a swept ball, of that size.
 [[nodiscard]] ModelPtr grid_sweep(Random& random);
 
+/// A smoothed box or a cushion of that size, with flat faces or without.
+[[nodiscard]] ModelPtr grid_smooth(Random& random);
+
 /// A primitive of size about 1..6 with sizes and places on the half-integer grid, so that faces often coincide.
 inline ModelPtr grid_leaf(Random& random, int kinds = kAllLeaves) {
     const auto n = [&](int most) { return 0.5 * (1 + random.below(2 * most)); };
@@ -101,6 +104,10 @@ inline ModelPtr grid_leaf(Random& random, int kinds = kAllLeaves) {
             leaf = grid_sweep(random);
             break;
         default: {
+            if (random.chance(0.5)) {
+                leaf = grid_smooth(random);
+                break;
+            }
             // an ellipsoid
             const double a = n(3), b = n(3), c = n(3);
             leaf = quadric(

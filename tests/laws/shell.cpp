@@ -5,6 +5,7 @@
 
 #include "raymo/meshes/build.hpp"
 #include "raymo/solids/freeform/test_field.hpp"
+#include "tests/laws/rays.hpp"
 
 namespace raymo::laws {
 namespace {
@@ -149,6 +150,13 @@ std::vector<meshes::GivenNet> random_nets(Random& random) {
         }
     }
     return out;
+}
+
+ModelPtr grid_smooth(Random& random) {
+    const auto n = [&] { return 0.5 * (2 + random.below(7)); };
+    meshes::Mesh mesh = meshes::box_mesh({n(), n(), n()}, {1, 1, 1});
+    if (random.chance(0.5)) mesh = meshes::creased_by_angle(std::move(mesh), 0.0);
+    return smooth(std::move(mesh));
 }
 
 Side classify(const meshes::Shell& shell, const RealPoint& p, Real margin) {
