@@ -198,6 +198,24 @@ TEST_CASE("a part that is inside out is solid, and its normals face outwards") {
     CHECK(shell.spans({-3, 1, 1}, {1, 0, 0}).size() == 2);
 }
 
+TEST_CASE("a line through both poles enters at one and leaves at the other") {
+    const auto examples = Patches::examples();
+    for (const std::size_t example : {std::size_t{2}, std::size_t{3}, std::size_t{4}}) {
+        const auto placed = Patches::prepare(examples[example]).value();
+        for (const Vec3 aside :
+             {Vec3{}, Vec3{1e-14, 2e-14, 0}, Vec3{-3e-11, 1e-11, 0}, Vec3{0, 2e-8, 0}}) {
+            const double e = 0x1p-52;
+            SpanList spans;
+            placed.kernel.spans({aside.x, aside.y, 0, 0, 0, 1, e, e, e, 1}, spans);
+            CHECK_FALSE(spans.degenerate());
+            REQUIRE(spans.size() == 1);
+            CHECK(spans[0].enter.error < 1e-9);
+            CHECK(spans[0].enter.s == doctest::Approx(placed.kernel.bounds({}).lo.z).epsilon(1e-7));
+            CHECK(spans[0].exit.s == doctest::Approx(placed.kernel.bounds({}).hi.z).epsilon(1e-7));
+        }
+    }
+}
+
 TEST_CASE("poles have the normal of the patches around them") {
     const auto examples = Patches::examples();
     const auto placed = Patches::prepare(examples[2]).value();

@@ -177,6 +177,51 @@ void halve(Seen& c, bool in_u, Seen& other) {
     }
 }
 
+/// Next to where a border has shrunk to a point.
+bool is_uneven(Vec2 fu, Vec2 fv) {
+    const double a = dot(fu, fu), b = dot(fv, fv);
+    return a < 1e-4 * b || b < 1e-4 * a;
+}
+
+/// How far a patch bends from its tangent plane next to a place.
+class Bend {
+public:
+    /// `bend`: no second derivative nearby is larger.
+    Bend(const Patch& patch, double u, double v, double bend) : bend_(bend) {
+        const auto derivatives = [](double x, std::array<std::array<double, 4>, 4>& out) {
+            const CubicWeights w(x);
+            out = {w.value, w.slope,
+                   std::array<double, 4>{6.0 * (1.0 - x), 18.0 * x - 12.0, 6.0 - 18.0 * x, 6.0 * x},
+                   std::array<double, 4>{-6.0, 18.0, -18.0, 6.0}};
+        };
+        std::array<std::array<double, 4>, 4> f, g;
+        derivatives(u, f);
+        derivatives(v, g);
+        const auto size = [&](std::size_t in_u, std::size_t in_v) {
+            Vec3 sum;
+            for (std::size_t i = 0; i < 4; ++i) {
+                for (std::size_t j = 0; j < 4; ++j)
+                    sum += patch.point(i, j) * (f[in_u][i] * g[in_v][j]);
+            }
+            return norm(sum);
+        };
+        uu_ = size(2, 0), uv_ = size(1, 1), vv_ = size(0, 2);
+        uuu_ = size(3, 0), vvv_ = size(0, 3);
+    }
+    /// At most, within x of u and y of v. Third derivatives are at most 6 times the bound of second ones, and fourth ones
+    /// 54 times.
+    [[nodiscard]] double off(double x, double y) const {
+        const double third = 6.0 * bend_, fourth = 54.0 * bend_;
+        const double uu = uu_ + (uuu_ + fourth * y) * x + third * y;
+        const double uv = uv_ + third * (x + y);
+        const double vv = vv_ + (vvv_ + fourth * x) * y + third * x;
+        return 0.5 * (uu * x * x + 2.0 * uv * x * y + vv * y * y);
+    }
+
+private:
+    double bend_, uu_, uv_, vv_, uuu_, vvv_;
+};
+
 /// Whether f x b has the sign of `way` for all b of the cone, and for all f within e.
 bool turns(Vec2 f, const FreeformCone& cone, double way, double e) {
     const double size = length(f);
@@ -237,9 +282,16 @@ FreeformSearch::Answer FreeformSearch::solve(std::uint32_t number, const PatchPa
         const bool within = next_u >= part.u0 - blur_u && next_u <= part.u1 + blur_u &&
                             next_v >= part.v0 - blur_v && next_v <= part.v1 + blur_v;
         // What the next step would be, across the line, is far below its error.
-        if (within && 16.0 * bend * (size * size) <= kFreeformOwnError) {
-            const double blur = std::max(blur_u, blur_v);
-            if (!(2.0 * bend * (blur * blur) <= e) || blur > 0.125) return Answer::unclear;
+        bool arrived = 16.0 * bend * (size * size) <= kFreeformOwnError;
+        const double blur = std::max(blur_u, blur_v);
+        bool is_sure = 2.0 * bend * (blur * blur) <= e && blur <= 0.125;
+        if (within && !(arrived && is_sure) && blur <= 0.125 && is_uneven(fu, fv)) {
+            const Bend local(patch, u, v, bend);
+            arrived = 8.0 * local.off(std::fabs(step_u), std::fabs(step_v)) <= kFreeformOwnError;
+            is_sure = local.off(blur_u, blur_v) <= e;
+        }
+        if (within && arrived) {
+            if (!is_sure) return Answer::unclear;
             const Vec3 n = cross(jet.du, jet.dv);
             const double slope = std::fabs(turn) / std::sqrt(dot(n, n));
             FreeformHit hit;
