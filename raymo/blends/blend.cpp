@@ -130,7 +130,8 @@ Result<void> check_known(const Body& body, bool within_operands, double radius,
     for (const Leaf& leaf : body.leaves()) {
         if (leaf.unknown.empty()) continue;
         for (const Leaf& other : body.leaves()) {
-            if (&leaf == &other ? !within_operands
+            // A whole ellipsoid has no edges of its own.
+            if (&leaf == &other ? !within_operands || leaf.face_count == 0
                                 : !within_operands && leaf.operand == other.operand)
                 continue;
             if (overlap(overlap(grown(leaf.box, radius), other.box), choice).empty()) continue;

@@ -10,11 +10,12 @@ namespace {
 using solids::Where;
 
 /// Of a point of the body, in a leaf's frame. The body's frame is that in which the user wrote the blend, so the leaf's map
-/// and the point carry a few roundings each, as large as the larger of them.
+/// and the point carry a few roundings each: in every component of the size of the largest, since turned frames mix them.
 Where where_in(const Leaf& leaf, Vec3 p, double margin = 0.0) {
     if (!grown(leaf.near, margin).contains(p)) return Where::out;
     const Vec3 q = leaf.inverse(p);
-    const Vec3 reach = abs(p) + abs(leaf.map.offset);
+    const double size = max_norm(p) + max_norm(leaf.map.offset);
+    const Vec3 reach{size, size, size};
     const Vec3 e = (abs(leaf.inverse.linear) * reach + abs(q)) * kPointError +
                    abs(leaf.inverse.linear) * Vec3{margin, margin, margin};
     return std::visit([&](const auto& kernel) { return kernel.where(q, e); },

@@ -12,8 +12,6 @@ namespace {
 using solids::Where;
 
 constexpr double kTurn = 2.0 * std::numbers::pi;
-/// Faces that meet at a smaller sine are continued by each other; there is no edge.
-constexpr double kSmooth = 0x1p-20;
 
 /// Faces at which an edge is crossed, by parameter.
 struct Mark {

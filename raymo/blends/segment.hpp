@@ -14,6 +14,9 @@ namespace raymo::blends {
 using Sectors = std::uint8_t;
 inline constexpr Sectors kUnknownSectors = 0x80;
 
+/// Faces that meet at a smaller sine are continued by each other; there is no edge.
+inline constexpr double kSmooth = 0x1p-20;
+
 /// Where a stretch ends.
 struct End {
     double at = 0.0;  ///< parameter of the edge

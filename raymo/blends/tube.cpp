@@ -17,8 +17,6 @@ namespace {
 using curves::Point;
 using curves::SplineSpan;
 
-/// How far a wedge reaches beyond the faces, as part of its radius.
-constexpr double kBeyond = 0x1p-20;
 /// A spline is not sure of itself next to its ends; what it does there fades to a quarter with every node.
 constexpr double kSpare = 16.0;
 

@@ -10,7 +10,6 @@
 namespace raymo::blends {
 namespace {
 
-constexpr double kSmooth = 0x1p-20;
 /// A wedge is run on at most so many times its own extent: sharper mitres are cut off there.
 constexpr double kLongestRun = 32.0;
 
@@ -341,7 +340,7 @@ Result<std::vector<std::pair<csg::Solid, bool>>> corners_of(const Body& body,
     std::vector<std::pair<csg::Solid, bool>> out;
     for (const Corner& corner : corners) {
         if (corner.edges < 3) continue;
-        if (corner.faces.size() > 3) {
+        if (corner.faces.size() > 3 && form.profile == Profile::ball) {
             return fail(ErrorCode::bad_argument,
                         "more than three faces meet in one corner, which no ball touches all of",
                         "blend these edges one after another, with `near` or `where`");
@@ -365,6 +364,8 @@ Result<std::vector<std::pair<csg::Solid, bool>>> corners_of(const Body& body,
         }
         auto solid = ball_corner(to_contact, *centre, form.radius, span);
         if (!solid) return Failure(std::move(solid).error());
+        const csg::MaterialId material = body.leaves()[body.faces()[corner.faces[0]].leaf].material;
+        if (material != csg::kNoMaterial) solid = csg::paint(std::move(*solid), material, span);
         out.emplace_back(std::move(*solid), corner.is_convex);
     }
     return out;

@@ -14,8 +14,6 @@ namespace {
 
 using solids::Where;
 
-/// How far a wedge reaches beyond the faces, as part of its radius: far more than roundings, far less than anything seen.
-constexpr double kBeyond = 0x1p-20;
 /// A face is in a ball's way when it comes nearer to its centre than the radius by more than this part of it.
 constexpr double kPress = 0x1p-20;
 /// Faces whose normals' sine is smaller somewhere along a curve touch there, and what a ball does is no matter of rolling.
