@@ -237,17 +237,21 @@ private:
         return lo < hi;
     }
 
-    /// Whether one of the two operands has the same edge by itself, as where their faces are flush.
+    /// Whether at every place one of the two operands has the same edge by itself, as where their faces are flush. The places
+    /// are none where two alike operands would have their seam.
     [[nodiscard]] bool is_old(const Segment& segment, Sectors now, std::size_t i,
                               std::size_t k) const {
-        const double t = segment.middle();
-        for (const std::size_t face : {i, k}) {
-            const std::size_t operand = leaf_of(face).operand;
-            if ((segment.space ? sectors(*segment.space, i, k, t, operand)
-                               : sectors(segment.edge, t, operand)) == now)
-                return true;
+        for (const double part : {0.137, 0.371, 0.629, 0.863}) {
+            const double t = segment.lo + part * (segment.hi - segment.lo);
+            bool is_own = false;
+            for (const std::size_t face : {i, k}) {
+                const std::size_t operand = leaf_of(face).operand;
+                is_own |= (segment.space ? sectors(*segment.space, i, k, t, operand)
+                                         : sectors(segment.edge, t, operand)) == now;
+            }
+            if (!is_own) return false;
         }
-        return false;
+        return true;
     }
 
     /// Turns the sides of a stretch's curves. False when it is no edge to blend.
