@@ -46,12 +46,7 @@ public:
         add(s, 1.0, name);
     }
     void cylinder(Vec3 on_axis, double radius, double side, std::string_view name) {
-        Surface s;
-        s.kind = SurfaceKind::cylinder;
-        s.point = leaf_.map(on_axis);
-        s.axis = axis_;
-        s.radius = radius * across_;
-        add(s, side, name);
+        round(SurfaceKind::cylinder, on_axis, radius, 0.0, side, name);
     }
     /// About the z axis, through two points (radius, z) of it.
     void cone(Vec2 a, Vec2 b, double side, std::string_view name) {
@@ -71,21 +66,10 @@ public:
         add(s, side, name);
     }
     void sphere(Vec3 centre, double radius, double side, std::string_view name) {
-        Surface s;
-        s.kind = SurfaceKind::sphere;
-        s.point = leaf_.map(centre);
-        s.axis = axis_;
-        s.radius = radius * across_;
-        add(s, side, name);
+        round(SurfaceKind::sphere, centre, radius, 0.0, side, name);
     }
     void torus(double z, double ring, double tube, double side, std::string_view name) {
-        Surface s;
-        s.kind = SurfaceKind::torus;
-        s.point = leaf_.map(Vec3{0, 0, z});
-        s.axis = axis_;
-        s.radius = ring * across_;
-        s.tube = tube * across_;
-        add(s, side, name);
+        round(SurfaceKind::torus, {0, 0, z}, ring, tube, side, name);
     }
     /// A run of the kernel's frame, with its left side solid if `left` > 0: swept along z, or turned about it.
     void swept(std::vector<curves::Span2> spans, bool is_closed, double left, std::string_view name,
@@ -116,6 +100,17 @@ public:
     }
 
 private:
+    void round(SurfaceKind kind, Vec3 at, double radius, double tube, double side,
+               std::string_view name) {
+        Surface s;
+        s.kind = kind;
+        s.point = leaf_.map(at);
+        s.axis = axis_;
+        s.radius = radius * across_;
+        s.tube = tube * across_;
+        add(s, side, name);
+    }
+
     Leaf& leaf_;
     std::uint32_t index_;
     std::vector<Face>& out_;

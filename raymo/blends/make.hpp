@@ -23,4 +23,12 @@ template <solids::Primitive P>
     return csg::primitive(row_of<P>(), {arguments.begin(), arguments.size()}, span);
 }
 
+/// Takes (x, y, z) to origin + x u + y v + z w.
+[[nodiscard]] inline Affine frame(Vec3 u, Vec3 v, Vec3 w, Vec3 origin) {
+    Affine map;
+    for (int i = 0; i < 3; ++i) map.linear.row[static_cast<std::size_t>(i)] = {u[i], v[i], w[i]};
+    map.offset = origin;
+    return map;
+}
+
 }  // namespace raymo::blends

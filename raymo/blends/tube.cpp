@@ -325,10 +325,9 @@ Result<curves::PathPtr> path_through(const Segment& segment, double lo, double h
     lo = std::max(lo, row->first);
     hi = std::min(hi, row->first + static_cast<double>(row->points.size()) - 1.0);
     if (row->points.size() < 8 || !(lo < hi)) return lost();
-    std::size_t stride = 1;
-    auto fitted = fit(*row, ring, 1);
-    if (!fitted) return Failure(std::move(fitted).error());
-    for (std::size_t k = 16; k > 1 && stride == 1; k /= 2) {
+    std::size_t stride = 0;
+    Result<Fitted> fitted = lost();
+    for (std::size_t k = 16; stride == 0; k /= 2) {
         // A ring must come out even; an open row ends where its last stride does.
         if (row->points.size() < 8 * k || (ring && row->points.size() % k != 0)) continue;
         Row part = *row;
@@ -337,11 +336,10 @@ Result<curves::PathPtr> path_through(const Segment& segment, double lo, double h
             if (row->first + static_cast<double>(whole - 1) < hi) continue;
             part.points.resize(whole);
         }
-        auto coarse = fit(part, ring, k);
-        if (coarse && coarse->error <= tolerance) {
-            fitted = std::move(coarse);
-            stride = k;
-        }
+        fitted = fit(part, ring, k);
+        // All of the points are the best there is.
+        if (k == 1 && !fitted) return Failure(std::move(fitted).error());
+        if (k == 1 || (fitted && fitted->error <= tolerance)) stride = k;
     }
     curves::Path path;
     path.closed = ring;

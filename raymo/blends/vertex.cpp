@@ -109,11 +109,7 @@ Result<csg::Solid> inner_side(const Surface& s, Vec3 at, double reach, SourceSpa
         Vec3 u;
         Vec3 v;
         make_frame(s.axis, u, v);
-        Affine map;
-        for (int i = 0; i < 3; ++i)
-            map.linear.row[static_cast<std::size_t>(i)] = {u[i], v[i], s.axis[i]};
-        map.offset = origin;
-        return csg::transform(std::move(*solid), map, span);
+        return csg::transform(std::move(*solid), frame(u, v, s.axis, origin), span);
     };
     const double along = dot(at - s.point, s.axis);
     switch (s.kind) {
@@ -277,12 +273,7 @@ Result<csg::Solid> ball_corner(const std::array<Vec3, 3>& to_contact, Vec3 c, do
     const auto is_across = [](Vec3 p, Vec3 q) { return std::fabs(dot(p, q)) <= 0x1p-46; };
     if (is_across(to_contact[0], to_contact[1]) && is_across(to_contact[0], to_contact[2]) &&
         is_across(to_contact[1], to_contact[2])) {
-        Affine map;
-        for (int i = 0; i < 3; ++i) {
-            map.linear.row[static_cast<std::size_t>(i)] = {to_contact[0][i], to_contact[1][i],
-                                                           to_contact[2][i]};
-        }
-        map.offset = c;
+        const Affine map = frame(to_contact[0], to_contact[1], to_contact[2], c);
         auto block = make<solids::Block>({Vec3{size, size, size}, false}, span);
         if (!block) return block;
         block = csg::transform(std::move(*block), map, span);

@@ -234,17 +234,13 @@ Result<csg::Solid> solid_of(const Segment& segment, const Form& form, double lo,
     const auto wedge = wedge_of(segment, form.radius);
     RAYMO_ASSERT(wedge.has_value());
     auto outline = std::make_shared<const curves::Outline>(outline_of(segment, *wedge, form));
-    Affine map;
     Vec3 u = e.across;
     Vec3 v = e.up;
     if (e.is_circle) {
         u = e.across * std::cos(lo) + e.up * std::sin(lo);
         v = cross(e.along, u);
     }
-    for (int i = 0; i < 3; ++i) {
-        map.linear.row[static_cast<std::size_t>(i)] = {u[i], v[i], e.along[i]};
-    }
-    map.offset = e.is_circle ? e.origin : e.origin + e.along * lo;
+    const Affine map = frame(u, v, e.along, e.is_circle ? e.origin : e.origin + e.along * lo);
     auto solid = e.is_circle
                      ? make<solids::Revolve>(
                            {std::move(outline),
