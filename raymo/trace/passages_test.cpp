@@ -4,23 +4,14 @@
 
 #include "raymo/csg/model.hpp"
 #include "raymo/trace/packet.hpp"
+#include "raymo/trace/test_primitive.hpp"
 
 namespace raymo::trace {
 namespace {
 
 using csg::Solid;
 
-Solid primitive(std::string_view name, std::vector<solids::Argument> arguments) {
-    const auto rows = solids::inventory();
-    for (std::uint32_t i = 0; i < rows.size(); ++i) {
-        if (rows[i].schema->name != name) continue;
-        const auto params = rows[i].schema->params;
-        while (arguments.size() < params.size())
-            arguments.push_back(*params[arguments.size()].fallback);
-        return csg::primitive(i, arguments).value();
-    }
-    return {};
-}
+using test::primitive;
 Solid sphere(double radius, Vec3 at) {
     return csg::transform(primitive("sphere", {radius}), translation(at)).value();
 }
