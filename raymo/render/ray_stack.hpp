@@ -18,6 +18,7 @@ struct Path {
     std::uint32_t name =
         1;          ///< tells the hits of one eye ray apart: the turns taken at each surface
     int depth = 0;  ///< reflections and refractions so far
+    std::uint32_t within = trace::SurfaceId::kNone;  ///< leaf that the ray has entered and not left
 };
 
 class RayStack {
@@ -30,8 +31,11 @@ public:
               const std::array<Path, 8>& paths, std::uint32_t turn) {
         const std::size_t first = size();
         for (LaneBits rest = lanes; rest != 0; rest &= rest - 1) {
-            const Path& path = paths[static_cast<std::size_t>(trace::lowest_lane(rest))];
-            paths_.push_back({path.owner, 2 * path.name + turn, path.depth + 1});
+            const int i = trace::lowest_lane(rest);
+            const Path& path = paths[static_cast<std::size_t>(i)];
+            const bool is_within = (hits.entering >> i & 1U) == turn;
+            paths_.push_back({path.owner, 2 * path.name + turn, path.depth + 1,
+                              is_within ? hits.leaf[i] : trace::SurfaceId::kNone});
         }
         if (first + 8 > columns_[0].size()) {
             for (auto& column : columns_) column.resize(2 * first + 64);
@@ -72,6 +76,10 @@ public:
         rays.on_surface = trace::kAllLanes;
         std::copy_n(paths_.data() + first, count, paths.data());
         paths_.resize(first);
+        rays.within = paths[0].within;
+        for (std::size_t k = 1; k < count; ++k) {
+            if (paths[k].within != rays.within) rays.within = trace::SurfaceId::kNone;
+        }
         const LaneBits lanes = trace::first_lanes(count);
         rays.fill_up(lanes);
         return lanes;

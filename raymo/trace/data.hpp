@@ -54,6 +54,8 @@ struct Leaf {
         kNone;              ///< first leaf of a core: the node that is the root of its cutters
     std::uint8_t unit = 1;  ///< first leaf of a unit: how many leaves the unit has; 0: a later one
     bool alone = false;     ///< the only leaf of its part
+    /// And transparent, with a box that meets that of no other: who is inside meets its own surface first.
+    bool apart = false;
 };
 
 /// How the kernels of a type are computed for several rays at once.

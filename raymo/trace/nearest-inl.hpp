@@ -329,13 +329,14 @@ HWY_INLINE std::uint32_t meet_product(Walker<8>& w, const Beam& beam, std::uint3
     }
 }
 
-/// Walks the tree for all active rays; the answers are in w.nearest.
-HWY_INLINE void walk_nearest(Walker<8>& w) {
+/// Walks the tree below `root`, or to one leaf that stands apart, for all active rays; the answers are in w.nearest.
+HWY_INLINE void walk_nearest(Walker<8>& w, const NearBox& root) {
     Nearest& n = w.nearest;
     Context<8>& c = w.contexts[0];
-    Beam beam = beam_of(c, w.active);
+    Beam beam{};
+    if (root.count() == 0) beam = beam_of(c, w.active);
     w.near_boxes.count = 0;
-    w.near_boxes.put({-kInfinity, c.solid->units, 0, w.active});
+    w.near_boxes.put(root);
     while (w.near_boxes.count > 0) {
         const NearBox box = w.near_boxes.last();
         --w.near_boxes.count;
@@ -384,6 +385,18 @@ HWY_INLINE void walk_nearest(Walker<8>& w) {
         }
         beam.to = most_of(c.to, open & ~n.deferred);
     }
+}
+
+/// Whether all active rays are known to start in leaf `index`, and to leave it.
+HWY_INLINE bool all_leave(const Walker<8>& w, std::uint32_t index) {
+    const Nearest& n = w.nearest;
+    const Lanes leaf(static_cast<double>(index));
+    std::uint32_t leave = 0;
+    for (int i = 0; i < 8; i += kLanes) {
+        const Mask out = load(n.leaf + i) == leaf + Lanes(kLeaving);
+        leave |= bits(lane_and(out, load(n.inside + i) == leaf)) << i;
+    }
+    return (w.active & ~(leave & n.found & ~n.deferred)) == 0;
 }
 
 /// Decides for which rays the answer is certain.

@@ -81,6 +81,8 @@ struct alignas(64) RayPacket {
     double t_max[kSize];
     double start_error[kSize];
     LaneBits on_surface = 0;
+    /// A leaf that all rays in use start in, as far as their past tells (SurfaceId::leaf); a hint, which saves time.
+    std::uint32_t within = SurfaceId::kNone;
 
     void set(int lane, const RayQuery& query) {
         for (int a = 0; a < 3; ++a) {

@@ -46,6 +46,13 @@ BvhNode empty_node() {
     return node;
 }
 
+bool meet(const Boxf& a, const Boxf& b) {
+    for (std::size_t k = 0; k < 3; ++k) {
+        if (a.lo[k] > b.hi[k] || b.lo[k] > a.hi[k]) return false;
+    }
+    return true;
+}
+
 class Planter {
 public:
     Planter(CompiledSolid& solid, const std::vector<Boxf>& boxes, const CompiledScene::Data& data)
@@ -293,7 +300,35 @@ private:
             }
         }
         place.push_back(static_cast<std::uint32_t>(planted.size()));
+        for (std::size_t i = 0; i < tree.order.size(); ++i) {
+            Leaf& leaf = planted[place[i]];
+            leaf.apart = leaf.unit == 1 && is_transparent(leaf) && stands_apart(tree, tree.order[i]);
+        }
         return append(tree, [&](std::uint32_t unit) { return place[unit]; });
+    }
+    [[nodiscard]] bool is_transparent(const Leaf& leaf) const {
+        const csg::MaterialId material = data_.looks[leaf.look].material;
+        return material < data_.materials.size() && data_.materials[material].transmission > 0.0;
+    }
+    /// Whether the box of a unit meets that of no other.
+    [[nodiscard]] bool stands_apart(const Bvh& tree, std::uint32_t unit) const {
+        const Boxf& box = unit_boxes_[unit];
+        std::vector<std::uint32_t> open{0};
+        while (!open.empty()) {
+            const BvhNode& node = tree.nodes[open.back()];
+            open.pop_back();
+            for (std::size_t c = 0; c < BvhNode::kWidth; ++c) {
+                if (!meet(box, {{node.lo[0][c], node.lo[1][c], node.lo[2][c]},
+                                {node.hi[0][c], node.hi[1][c], node.hi[2][c]}}))
+                    continue;
+                if (node.count[c] == 0) open.push_back(node.ref[c]);
+                for (std::uint32_t k = 0; k < node.count[c]; ++k) {
+                    const std::uint32_t other = tree.order[node.ref[c] + k];
+                    if (other != unit && meet(box, unit_boxes_[other])) return false;
+                }
+            }
+        }
+        return true;
     }
 
     std::uint32_t plant_cutters(const Product& product, std::vector<Leaf>& planted) {
@@ -346,8 +381,10 @@ private:
         for (const Group& group : solid_.groups) {
             if (group.parent < solid_.parts) ++members[group.parent];
         }
-        for (Leaf& leaf : solid_.leaves)
+        for (Leaf& leaf : solid_.leaves) {
             leaf.alone = leaf.parent < solid_.parts && members[leaf.parent] == 1;
+            leaf.apart = leaf.apart && leaf.alone;
+        }
     }
 
     CompiledSolid& solid_;

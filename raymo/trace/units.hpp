@@ -15,7 +15,7 @@
 namespace raymo::trace {
 
 /// Puts `solid`.leaves, with groups made and in the order of the model, in the order of the trees of boxes, and fills in what
-/// follows from that: nodes, units, simple, and of leaves unit, cutters and alone. `boxes`: one for each leaf.
+/// follows from that: nodes, units, simple, and of leaves unit, cutters, alone and apart. `boxes`: one for each leaf.
 /// Cost: O(n log n).
 void plant_trees(CompiledSolid& solid, const std::vector<Boxf>& boxes,
                  const CompiledScene::Data& data);

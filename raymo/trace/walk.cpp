@@ -86,11 +86,20 @@ void walk1(Walker<1>& w) { walk_all(w); }
 void walk8(Walker<8>& w) { walk_all(w); }
 /// In mode through `passed` is what the rays pass; otherwise `hits`, unless null, what they meet.
 void walk_simple8(Walker<8>& w, const RayPacket& rays, HitPacket* hits, PassagePacket* passed) {
-    prepare_packet(w, rays);
-    reset_nearest(w.nearest);
-    if (passed != nullptr) reset_passages(w.passages);
-    walk_nearest(w);
-    settle_nearest(w);
+    const CompiledSolid& solid = *w.contexts[0].solid;
+    NearBox root(-kInfinity, solid.units, 0, w.active);
+    const bool is_within = hits != nullptr && rays.within < solid.leaves.size() &&
+                           solid.leaves[rays.within].apart;
+    if (is_within) root = {-kInfinity, rays.within, 1, w.active};
+    for (;;) {
+        prepare_packet(w, rays);
+        reset_nearest(w.nearest);
+        if (passed != nullptr) reset_passages(w.passages);
+        walk_nearest(w, root);
+        settle_nearest(w);
+        if (root.count() == 0 || all_leave(w, rays.within)) break;
+        root = {-kInfinity, solid.units, 0, w.active};
+    }
     if (passed != nullptr) {
         settle_passages(w, *passed);
         for (int k = 0; k < passed->count; ++k) {
