@@ -1,5 +1,6 @@
 #include <doctest/doctest.h>
 
+#include <array>
 #include <cmath>
 #include <random>
 
@@ -287,6 +288,64 @@ TEST_CASE("trace: from within glass, packets and single rays give the same bits"
         }
     }
     CHECK(exits > 1000);
+}
+
+TEST_CASE("trace: told which leaf they start in, packets give the same bits; told wrongly too") {
+    scene::Scene scene;
+    scene.materials.resize(1);
+    scene.materials[0].transmission = 0.9;
+    // The pane and the ring stand apart, though the ring goes round the ball; the ball and the block overlap.
+    scene.parts.push_back({"pane", csg::paint(moved(block({10, 1, 10}), {-5, -4, -5}), 0), {}});
+    scene.parts.push_back({"ring", csg::paint(primitive("torus", {2.0, 0.5}), 0), {}});
+    scene.parts.push_back({"ball", csg::paint(moved(sphere(0.8), {0, 4, 0}), 0), {}});
+    scene.parts.push_back({"block", csg::paint(moved(block({1, 1, 1}), {0, 4, 0}), 0), {}});
+    const auto compiled = compile(scene);
+    REQUIRE(compiled.has_value());
+    Tracer tracer(*compiled);
+    std::mt19937_64 random(5);
+    std::uniform_real_distribution<double> uniform(-1, 1);
+    int within = 0;
+    for (int k = 0; k < 4000; ++k) {
+        std::vector<RayQuery> queries(8);
+        std::uint32_t leaf = SurfaceId::kNone;
+        for (RayQuery& q : queries) {
+            RayQuery eye;
+            const double y = std::array{-8.0, 0.0, 8.0}[static_cast<std::size_t>(k % 3)];
+            eye.ray = {{3 * uniform(random), y, 3 * uniform(random)},
+                       {uniform(random), uniform(random), uniform(random)}};
+            q = eye;
+            Hit hit;
+            if (!tracer.first_hit(eye, hit)) continue;
+            // Into the leaf that was met, but for a few.
+            Vec3 d{uniform(random), uniform(random), uniform(random)};
+            const bool inwards = dot(d, hit.normal) < 0.0;
+            if (!inwards && k % 5 != 0) d = -d;
+            q.ray = {hit.point, d};
+            q.on_surface = true;
+            q.start_error = hit.point_error;
+            leaf = hit.surface.leaf;
+        }
+        RayPacket rays = packed(queries);
+        HitPacket plain;
+        const LaneBits found = tracer.first_hits(rays, kAllLanes, plain);
+        rays.within = leaf;
+        HitPacket hinted;
+        REQUIRE(tracer.first_hits(rays, kAllLanes, hinted) == found);
+        for (LaneBits rest = found; rest != 0; rest &= rest - 1) {
+            const int i = lowest_lane(rest);
+            const Hit a = plain.hit(i);
+            const Hit b = hinted.hit(i);
+            CHECK(a.t == b.t);
+            CHECK(a.error == b.error);
+            CHECK(a.normal == b.normal);
+            CHECK(a.point == b.point);
+            CHECK(a.surface == b.surface);
+            CHECK(a.medium_before == b.medium_before);
+            CHECK(a.medium_after == b.medium_after);
+            within += b.entering ? 0 : 1;
+        }
+    }
+    CHECK(within > 1000);
 }
 
 TEST_CASE("trace: a solid without end is an error that names it; cut to size it is fine") {

@@ -302,7 +302,8 @@ private:
         place.push_back(static_cast<std::uint32_t>(planted.size()));
         for (std::size_t i = 0; i < tree.order.size(); ++i) {
             Leaf& leaf = planted[place[i]];
-            leaf.apart = leaf.unit == 1 && is_transparent(leaf) && stands_apart(tree, tree.order[i]);
+            leaf.apart =
+                leaf.unit == 1 && is_transparent(leaf) && stands_apart(tree, tree.order[i]);
         }
         return append(tree, [&](std::uint32_t unit) { return place[unit]; });
     }

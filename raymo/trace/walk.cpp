@@ -88,8 +88,8 @@ void walk8(Walker<8>& w) { walk_all(w); }
 void walk_simple8(Walker<8>& w, const RayPacket& rays, HitPacket* hits, PassagePacket* passed) {
     const CompiledSolid& solid = *w.contexts[0].solid;
     NearBox root(-kInfinity, solid.units, 0, w.active);
-    const bool is_within = hits != nullptr && rays.within < solid.leaves.size() &&
-                           solid.leaves[rays.within].apart;
+    const bool is_within =
+        hits != nullptr && rays.within < solid.leaves.size() && solid.leaves[rays.within].apart;
     if (is_within) root = {-kInfinity, rays.within, 1, w.active};
     for (;;) {
         prepare_packet(w, rays);
