@@ -33,6 +33,10 @@
 // crease passes through v, for which regular fans have k = 2; a quarter turn at corners, for which k = 1 is regular. (2)
 // then leaves one x_i free in any case.
 //
+// Where one crease ends at v (a dart), p and all m_i are those of a smooth point, so v has one tangent plane; the fan goes round
+// all faces, from the crease to the crease again: k = n, a full turn. So the normals of both sides of the crease become one
+// as it comes to v.
+//
 #include "raymo/meshes/smooth.hpp"
 
 #include <algorithm>
@@ -73,6 +77,8 @@ public:
         for (const Index p : special) {
             if (sharp_[p] == 0) {
                 join_all(p);
+            } else if (sharp_[p] == 1) {
+                join_round_crease(p);
             } else {
                 join_fans(p);
             }
@@ -89,6 +95,7 @@ public:
         for (std::size_t i = 0; i < n; ++i) {
             if (is_sharp(spokes[i])) at.push_back(i);
         }
+        if (sharp_[p] == 1) return false;
         const std::size_t wanted = sharp_[p] == 2 ? 2 : 1;
         for (std::size_t i = 0; i < at.size(); ++i) {
             const std::size_t next = i + 1 < at.size() ? at[i + 1] : at[0] + n;
@@ -120,13 +127,14 @@ private:
         const std::vector<Index> spokes = spokes_of(p);
         const std::size_t n = spokes.size();
         const Vec3 v = mesh_.points[p];
-        const double weight = sharp_[p] == 0 ? static_cast<double>(n) : 4.0;
+        const bool is_smooth = sharp_[p] < 2;
+        const double weight = is_smooth ? static_cast<double>(n) : 4.0;
         for (std::size_t i = 0; i < n; ++i) {
             const Index s = spokes[i];
             const Index t = spokes[(i + 1) % n];
             inside_[s] = (v * weight + to(s) * 2.0 + to(t) * 2.0 + opposite(s)) / (weight + 5.0);
         }
-        if (sharp_[p] == 0) {
+        if (is_smooth) {
             start_smooth(p, spokes);
             return;
         }
@@ -277,7 +285,6 @@ private:
         const Vec3 place = at_point_[p];
         const bool passes = sharp_[p] == 2;
         const double theta = (passes ? pi : 0.5 * pi) / static_cast<double>(k);
-        const double c = std::cos(theta);
         const auto start = [&](Index s) { return (on_edge_[s] - place) * 1.5; };
         const Vec3 a = start(fan[0]);
         Vec3 b;  // at a right angle to a, in the n-gon's own terms
@@ -292,11 +299,31 @@ private:
             const double angle = theta * static_cast<double>(i);
             return place + a * std::cos(angle) + b * std::sin(angle);
         };
+        std::vector<Vec3> m(k);
+        for (std::size_t i = 1; i < k; ++i) m[i] = turned(i);
+        join_between(fan, place, m, std::cos(theta));
+    }
+
+    void join_round_crease(Index p) {
+        std::vector<Index> fan = spokes_of(p);
+        std::rotate(fan.begin(),
+                    std::find_if(fan.begin(), fan.end(), [&](Index s) { return is_sharp(s); }),
+                    fan.end());
+        const std::size_t n = fan.size();
+        const Vec3 place = at_point_[p];
+        std::vector<Vec3> m(n);
+        for (std::size_t i = 1; i < n; ++i) m[i] = place + (on_edge_[fan[i]] - place) * 1.5;
+        join_between(fan, place, m, std::cos(2.0 * pi / static_cast<double>(n)));
+    }
+
+    /// Joins the faces of a fan across its spokes but the first; m holds the points m_i of these, and c = cos theta.
+    void join_between(const std::vector<Index>& fan, Vec3 place, const std::vector<Vec3>& m,
+                      double c) {
+        const std::size_t k = m.size();
         const auto sign = [](std::size_t i) { return i % 2 == 0 ? 1.0 : -1.0; };
         std::vector<Vec3> x(k);
-        for (std::size_t i = 1; i < k; ++i) lay(fan[i], place, turned(i), Vec3{});
-        for (std::size_t i = 1; i < k; ++i)
-            x[i] = sum_beside(fan[i], place, turned(i), c) - x[i - 1];
+        for (std::size_t i = 1; i < k; ++i) lay(fan[i], place, m[i], Vec3{});
+        for (std::size_t i = 1; i < k; ++i) x[i] = sum_beside(fan[i], place, m[i], c) - x[i - 1];
         Vec3 off;
         for (std::size_t i = 0; i < k; ++i)
             off += (inside_[fan[i]] - x[i]) * (sign(i) / static_cast<double>(k));
@@ -367,13 +394,6 @@ Result<Shell> smooth(const Mesh& given) {
         mesh = turned_round(std::move(mesh));
         topology = close(mesh);
         if (!topology) return Failure(std::move(topology).error());
-    }
-    const std::vector<Index> sharp = sharp_valences(mesh);
-    for (std::size_t p = 0; p < sharp.size(); ++p) {
-        if (sharp[p] != 1) continue;
-        return refuse(ErrorCode::bad_argument,
-                      "a crease ends in the point " + shown_point(mesh.points[p]),
-                      "lead it on to a closed line, or to a point where three creases meet");
     }
     if (!is_regular(mesh, *topology)) {
         if (4 * mesh.corners.size() > kMostSmoothPatches) {

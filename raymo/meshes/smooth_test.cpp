@@ -84,20 +84,67 @@ double largest_turn(const Shell& shell) {
     return largest_turn(shell, [](Vec3, Vec3) { return true; });
 }
 
-/// A prism of n sides, its points moved at random.
-Mesh uneven_prism(int n, unsigned seed) {
+/// Borders across which the surface has an edge, and the ends of these at which it has none.
+struct SharpBorders {
+    std::size_t borders = 0;
+    std::size_t smooth_ends = 0;
+};
+/// Tells sharp borders from smooth ones; nothing may lie between.
+SharpBorders sharp_borders(const Shell& shell) {
+    SharpBorders out;
+    for (const auto& [key, sides] : borders_of(shell)) {
+        REQUIRE(sides.size() == 2);
+        const auto turn = [&](double t) {
+            return norm(cross(normal_at(shell, sides[0], t), normal_at(shell, sides[1], t)));
+        };
+        double most = 0.0;
+        for (int i = 0; i <= 16; ++i) most = std::max(most, turn(i / 16.0));
+        if (most < 1e-10) continue;
+        CHECK(most > 1e-4);
+        ++out.borders;
+        for (const double end : {0.0, 1.0}) out.smooth_ends += turn(end) < 1e-10 ? 1 : 0;
+    }
+    return out;
+}
+
+Vec3 moved_at_random(Vec3 p, unsigned& seed) {
     const auto random = [&] {
         seed = seed * 1664525U + 1013904223U;
         return seed / 4294967296.0 - 0.5;
     };
+    return p + Vec3{0.4 * random(), 0.4 * random(), 0.6 * random()};
+}
+
+std::vector<Vec2> regular_polygon(int n) {
     std::vector<Vec2> points;
     for (int k = 0; k < n; ++k) {
         const double angle = 2.0 * std::numbers::pi * k / n;
         points.push_back({2.0 * std::cos(angle), 2.0 * std::sin(angle)});
     }
-    Mesh out = extrude_mesh(points, 2.0, 1).value();
-    for (Vec3& p : out.points) p += Vec3{0.4 * random(), 0.4 * random(), 0.6 * random()};
+    return points;
+}
+
+/// A prism of n sides, its points moved at random.
+Mesh uneven_prism(int n, unsigned seed) {
+    Mesh out = extrude_mesh(regular_polygon(n), 2.0, 1).value();
+    for (Vec3& p : out.points) p = moved_at_random(p, seed);
     return out;
+}
+
+/// Two pyramids of n sides with one base, their points moved at random: n edges meet at both tips, the points n and n + 1.
+Mesh uneven_pyramids(int n, unsigned seed) {
+    std::vector<Vec3> points;
+    for (const Vec2 p : regular_polygon(n)) points.push_back({p.x, p.y, 0});
+    points.push_back({0, 0, 1.5});
+    points.push_back({0, 0, -1.5});
+    for (Vec3& p : points) p = moved_at_random(p, seed);
+    std::vector<std::vector<double>> faces;
+    for (int k = 0; k < n; ++k) {
+        const double a = k, b = (k + 1) % n;
+        faces.push_back({a, b, double(n)});
+        faces.push_back({b, a, double(n + 1)});
+    }
+    return make_mesh(points, faces).value();
 }
 
 TEST_CASE("P3: the cube's cage has the volume and the symmetry that it must have") {
@@ -138,7 +185,47 @@ TEST_CASE("the octahedron's cage has the volume that it must have") {
 TEST_CASE("tangent planes agree across all borders, for 3 to 12 edges at a point") {
     for (int n = 3; n <= 12; ++n) {
         CAPTURE(n);
-        CHECK(largest_turn(smooth(uneven_prism(n, static_cast<unsigned>(n))).value()) < 1e-10);
+        const auto seed = static_cast<unsigned>(n);
+        CHECK(largest_turn(smooth(uneven_prism(n, seed)).value()) < 1e-10);
+        CHECK(largest_turn(smooth(uneven_pyramids(n, seed)).value()) < 1e-10);
+    }
+}
+
+TEST_CASE("beside creases tangent planes agree, for 3 to 12 edges at a point") {
+    for (int n = 3; n <= 12; ++n) {
+        CAPTURE(n);
+        const auto count = static_cast<Index>(n);
+        const Index tip = count;
+        const Mesh mesh = uneven_pyramids(n, static_cast<unsigned>(n));
+        // How many borders are sharp, of the four that come of each crease, and where creases end.
+        const auto sharp = [&](const std::vector<Edge>& edges) {
+            return sharp_borders(smooth(creased(mesh, edges).value()).value());
+        };
+        std::vector<Edge> rim;
+        for (Index k = 0; k < count; ++k) rim.push_back(edge_between(k, (k + 1) % count));
+        const SharpBorders round = sharp(rim);
+        CHECK(round.borders == 4 * count);
+        CHECK(round.smooth_ends == 0);
+        // One that ends at both of its points, and one that ends at the tips.
+        const SharpBorders short_one = sharp({edge_between(0, tip)});
+        CHECK(short_one.borders == 4);
+        CHECK(short_one.smooth_ends == 2);
+        const SharpBorders over = sharp({edge_between(0, tip), edge_between(0, tip + 1)});
+        CHECK(over.borders == 8);
+        CHECK(over.smooth_ends == 2);
+        // One that passes through the tip, with fans of all sizes beside it.
+        for (Index k = 2; k <= count / 2; ++k) {
+            CAPTURE(k);
+            const SharpBorders through = sharp({edge_between(0, tip), edge_between(k, tip)});
+            CHECK(through.borders == 8);
+            CHECK(through.smooth_ends == 2);
+        }
+        // Three of them meet there.
+        const Index third = count / 3;
+        const SharpBorders corner =
+            sharp({edge_between(0, tip), edge_between(third, tip), edge_between(2 * third, tip)});
+        CHECK(corner.borders == 12);
+        CHECK(corner.smooth_ends == 3);
     }
 }
 

@@ -192,9 +192,19 @@ Aabb Freeform::bounds(const Affine& map) const {
 }
 
 Vec3 Freeform::normal(Vec3 p, std::uint16_t face) const {
-    const std::uint32_t number = face / 2U;
+    std::uint32_t number = face / 2U;
     double u = 0.5, v = 0.5;
     nearest_place(*surface_, number, p, u, v);
+    const auto distance = [&](std::uint32_t of, double at_u, double at_v) {
+        return squared(p - surface_->patches[of].at(at_u, at_v).at);
+    };
+    for (std::uint32_t other = number + kPatchNumbers; other < surface_->patches.size();
+         other += kPatchNumbers) {
+        double other_u = 0.5, other_v = 0.5;
+        nearest_place(*surface_, other, p, other_u, other_v);
+        if (!(distance(other, other_u, other_v) < distance(number, u, v))) continue;
+        number = other, u = other_u, v = other_v;
+    }
     const Patch& patch = surface_->patches[number];
     const auto good = [](Vec3 n) { return squared(n) > 1e-200; };
     Vec3 n = normal_at(patch, u, v);

@@ -9,6 +9,7 @@
 #pragma once
 
 #include <memory>
+#include <string>
 #include <utility>
 
 #include "raymo/solids/freeform/surface.hpp"
@@ -43,5 +44,30 @@ private:
 /// The kernel of a shell, and the map from its frame to the user's. Error: too many patches, or coordinates that can not be
 /// computed with.
 [[nodiscard]] Result<Placed<Freeform>> frame_shell(const meshes::Shell& shell);
+
+/// The kernel of one kind of solids of patches.
+template <class Solid>
+class FreeformKernel : public Freeform {
+public:
+    using Freeform::Freeform;
+    explicit FreeformKernel(Freeform solid) : Freeform(std::move(solid)) {}
+};
+
+/// The solid of a shell that was made of the first argument. Errors are those of the shell and of frame_shell(), about this
+/// argument, and begin with the solid's name.
+template <class Solid>
+[[nodiscard]] Result<Placed<FreeformKernel<Solid>>> prepare_shell(
+    const Result<meshes::Shell>& shell) {
+    const auto refuse = [](Error error) {
+        error.message = std::string(Solid::schema().name) + ": " + error.message;
+        error.argument = 0;
+        return Failure(std::move(error));
+    };
+    if (!shell) return refuse(shell.error());
+    auto placed = frame_shell(*shell);
+    if (!placed) return refuse(std::move(placed).error());
+    return Placed<FreeformKernel<Solid>>{FreeformKernel<Solid>(std::move(placed->kernel)),
+                                         placed->to_object};
+}
 
 }  // namespace raymo::solids

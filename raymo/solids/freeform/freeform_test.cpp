@@ -4,6 +4,7 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "raymo/meshes/build.hpp"
 #include "raymo/meshes/sew.hpp"
@@ -83,6 +84,17 @@ TEST_CASE("P1, P2: flat patches are met where they are") {
         CHECK(norm(cube.normal({p.x, p.y, 1}, spans[0].enter.face) - Vec3{0, 0, 1}) < 1e-12);
     }
     CHECK(cube.volume() == doctest::Approx(8.0).epsilon(1e-14));
+    // So is a plane grid as a B-spline: S(u, v) = (1 + u, 1 + v, 1 + u).
+    meshes::GivenNet grid;
+    for (std::size_t k = 0; k < 16; ++k) {
+        const auto i = static_cast<double>(k / 4), j = static_cast<double>(k % 4);
+        grid[k] = {i, j, i};
+    }
+    const meshes::GivenNet flat = meshes::bezier_of_bspline(grid);
+    for (std::size_t k = 0; k < 16; ++k) {
+        const double u = static_cast<double>(k / 4) / 3.0, v = static_cast<double>(k % 4) / 3.0;
+        CHECK(max_norm(flat[k] - Vec3{1 + u, 1 + v, 1 + u}) < 1e-15);
+    }
 }
 
 TEST_CASE("P4: a wavy patch is met at all of its roots") {
@@ -113,6 +125,27 @@ TEST_CASE("P4: a wavy patch is met at all of its roots") {
     const double most = 1.0 + c * 0.375 * 4.0 / 9;
     CHECK(hill.spans({-5, 0, most + 1e-9}, {1, 0, 0}).empty());
     CHECK(hill.spans({-5, 0, most - 1e-9}, {1, 0, 0}).size() == 1);
+}
+
+TEST_CASE("P4: a line meets one patch three times") {
+    // z = 1 + c p(u) q(v), p = u (1 - u) (u - w), q = v (1 - v), and at v = 1/2 the line z = 1 + c a (u - w) / 4: they meet
+    // where u = w or u (1 - u) = a.
+    const double c = 3.0, w = 0.45, a = 0.17;
+    const Asked waves(block([&](double x, double y) {
+        if (std::fabs(x) > 0.9 || std::fabs(y) > 0.9) return 0.0;
+        return c * (x < 0 ? -w : 1 - w) / 9.0;
+    }));
+    const double slope = c * a / 8.0;  // by x = 2 u - 1
+    const Vec3 d = raymo::unit(Vec3{1, 0, slope});
+    const double per_x = 1.0 / d.x;
+    const auto at = [&](double u) { return (2 * u - 1 + 3) * per_x; };
+    const auto spans = waves.spans({-3, 0, 1 + slope * (-3 - (2 * w - 1))}, d);
+    REQUIRE(spans.size() == 2);
+    const double half = std::sqrt(0.25 - a);
+    CHECK(spans[0].enter.s == doctest::Approx(2 * per_x).epsilon(1e-12));
+    CHECK(spans[0].exit.s == doctest::Approx(at(0.5 - half)).epsilon(1e-12));
+    CHECK(spans[1].enter.s == doctest::Approx(at(w)).epsilon(1e-12));
+    CHECK(spans[1].exit.s == doctest::Approx(at(0.5 + half)).epsilon(1e-12));
 }
 
 TEST_CASE("P5: lines through corners, along diagonals and borders of patches alternate") {
@@ -212,6 +245,39 @@ TEST_CASE("a line through both poles enters at one and leaves at the other") {
             CHECK(spans[0].enter.error < 1e-9);
             CHECK(spans[0].enter.s == doctest::Approx(placed.kernel.bounds({}).lo.z).epsilon(1e-7));
             CHECK(spans[0].exit.s == doctest::Approx(placed.kernel.bounds({}).hi.z).epsilon(1e-7));
+        }
+    }
+}
+
+TEST_CASE("a surface of more patches than there are numbers for faces") {
+    constexpr int kRows = 200;
+    std::vector<std::vector<Vec3>> rows;
+    for (int i = 0; i < kRows; ++i) {
+        std::vector<Vec3> row;
+        for (int j = 0; j < kRows; ++j) {
+            const double a = 2 * std::numbers::pi * i / kRows, b = 2 * std::numbers::pi * j / kRows;
+            const double q = 3 + std::cos(b);
+            row.push_back({q * std::cos(a), q * std::sin(a), std::sin(b)});
+        }
+        rows.push_back(row);
+    }
+    const meshes::Shell shell =
+        meshes::smooth(meshes::grid_mesh(rows, meshes::Closing::both).value()).value();
+    REQUIRE(shell.patches.size() > kPatchNumbers);
+    const Asked ring(shell);
+    // Nearly a torus, whose normals point away from the circle in its middle.
+    Random random(3);
+    for (int i = 0; i < 500; ++i) {
+        const double a = random.uniform(0, 2 * std::numbers::pi);
+        const Vec3 middle{3 * std::cos(a), 3 * std::sin(a), 0};
+        const Vec3 d = random.direction();
+        for (const Span& span : ring.spans(middle, d)) {
+            for (const bool enters : {true, false}) {
+                const SpanEnd& end = enters ? span.enter : span.exit;
+                const Vec3 p = middle + d * end.s;
+                const Vec3 core = Vec3{p.x, p.y, 0} * (3.0 / std::hypot(p.x, p.y));
+                CHECK(norm(ring.normal(p, end.face) - raymo::unit(p - core)) < 0.01);
+            }
         }
     }
 }

@@ -82,6 +82,26 @@ struct Patch {
     [[nodiscard]] Aabb control_box() const;
 };
 
+/// Control vectors of the derivatives of a bicubic patch: the derivatives lie in their convex hulls.
+template <class Vec>
+struct PatchSlopes {
+    std::array<Vec, 12> du, dv;
+};
+/// `point(i, j)` is b_ij.
+template <class Point>
+[[nodiscard]] auto slopes_of(const Point& point) {
+    PatchSlopes<decltype(point(std::size_t{0}, std::size_t{0}))> out;
+    std::size_t n = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+        for (std::size_t j = 0; j < 4; ++j) {
+            out.du[n] = (point(i + 1, j) - point(i, j)) * 3.0;
+            out.dv[n] = (point(j, i + 1) - point(j, i)) * 3.0;
+            ++n;
+        }
+    }
+    return out;
+}
+
 /// The same polynomial over a part, on [0, 1]^2 again.
 [[nodiscard]] Patch restricted(const Patch& patch, const PatchPart& part);
 

@@ -60,22 +60,6 @@ struct Seen {
     [[nodiscard]] Vec2 point(std::size_t k) const { return {x[k], y[k]}; }
 };
 
-struct Edges {
-    std::array<Vec2, 12> du, dv;
-};
-Edges edges_of(const Seen& c) {
-    Edges out;
-    std::size_t n = 0;
-    for (std::size_t i = 0; i < 3; ++i) {
-        for (std::size_t j = 0; j < 4; ++j) {
-            out.du[n] = (c.point(4 * (i + 1) + j) - c.point(4 * i + j)) * 3.0;
-            out.dv[n] = (c.point(4 * j + i + 1) - c.point(4 * j + i)) * 3.0;
-            ++n;
-        }
-    }
-    return out;
-}
-
 double longest(const std::array<Vec2, 12>& w, Vec2& which) {
     double most = -1.0;
     for (const Vec2 a : w) {
@@ -374,17 +358,18 @@ void FreeformSearch::search(std::uint32_t number, const PatchPart& whole) {
             --count;
             continue;
         }
-        const Edges edges = edges_of(at);
+        const auto slopes =
+            slopes_of([&](std::size_t i, std::size_t j) { return at.point(4 * i + j); });
         FreeformCone du, dv;
-        if (cone_of(edges.du, du) && cone_of(edges.dv, dv) && turn_one_way(du, dv) &&
+        if (cone_of(slopes.du, du) && cone_of(slopes.dv, dv) && turn_one_way(du, dv) &&
             solve(number, at.part, du, dv, 0.5 * (at.part.u0 + at.part.u1),
                   0.5 * (at.part.v0 + at.part.v1)) == Answer::done) {
             --count;
             continue;
         }
         Vec2 longest_u, longest_v;
-        const double along_u = longest(edges.du, longest_u);
-        const double along_v = longest(edges.dv, longest_v);
+        const double along_u = longest(slopes.du, longest_u);
+        const double along_v = longest(slopes.dv, longest_v);
         const bool even = along_u <= kEven * along_v && along_v <= kEven * along_u;
         const bool thin = width(at, along_u >= along_v ? longest_u : longest_v) <= e &&
                           (even || along_u + along_v <= e);

@@ -43,7 +43,9 @@ struct Change {
 };
 using Changes = SmallList<Change, 16>;
 
-std::uint16_t face_of(const FreeformHit& hit) { return static_cast<std::uint16_t>(2 * hit.patch); }
+std::uint16_t face_of(const FreeformHit& hit) {
+    return static_cast<std::uint16_t>(2 * (hit.patch % kPatchNumbers));
+}
 
 void put_hits(const FreeformFound& found, Changes& changes) {
     for (const FreeformHit& hit : found.hits) {

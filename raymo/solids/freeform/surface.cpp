@@ -17,7 +17,8 @@ namespace raymo::solids {
 namespace {
 
 constexpr double kNearlyFlat = 0.125;
-constexpr int kMostHalvings = 3;  ///< in each direction
+/// In each direction. Of many patches each shows little of the surface; and there are 2^22 leaves at most.
+int most_halvings(std::size_t patches) { return patches <= 0x10000 ? 3 : 2; }
 
 /// A ball around vectors.
 struct Ball {
@@ -31,23 +32,6 @@ Ball ball_of(const std::array<Vec3, 12>& vectors) {
     for (const Vec3 v : vectors) out.radius = std::max(out.radius, norm(v - out.centre));
     // Rounding, here and where it is used.
     out.radius += 0x1p-46;
-    return out;
-}
-
-/// Control vectors of the derivatives.
-struct Slopes {
-    std::array<Vec3, 12> du, dv;
-};
-Slopes slopes_of(const Patch& p) {
-    Slopes out;
-    std::size_t n = 0;
-    for (std::size_t i = 0; i < 3; ++i) {
-        for (std::size_t j = 0; j < 4; ++j) {
-            out.du[n] = (p.point(i + 1, j) - p.point(i, j)) * 3.0;
-            out.dv[n] = (p.point(j, i + 1) - p.point(j, i)) * 3.0;
-            ++n;
-        }
-    }
     return out;
 }
 
@@ -76,22 +60,23 @@ struct Open {
     int halved_u = 0, halved_v = 0;
 };
 
-void cut(const Patch& patch, std::uint32_t number, std::vector<FreeformLeaf>& out,
+void cut(const Patch& patch, std::uint32_t number, int halvings, std::vector<FreeformLeaf>& out,
          std::vector<Aabb>& boxes) {
     std::vector<Open> open{Open{}};
     while (!open.empty()) {
         const Open at = open.back();
         open.pop_back();
         const Patch part = restricted(patch, at.part);
-        const Slopes slopes = slopes_of(part);
+        const auto slopes =
+            slopes_of([&](std::size_t i, std::size_t j) { return part.point(i, j); });
         const Ball du = ball_of(slopes.du);
         const Ball dv = ball_of(slopes.dv);
         const bool flat = du.radius <= kNearlyFlat * norm(du.centre) &&
                           dv.radius <= kNearlyFlat * norm(dv.centre);
         double along_u = 0.0, along_v = 0.0;
         changes(part, du, dv, along_u, along_v);
-        const bool can_u = at.halved_u < kMostHalvings;
-        const bool can_v = at.halved_v < kMostHalvings;
+        const bool can_u = at.halved_u < halvings;
+        const bool can_v = at.halved_v < halvings;
         if (flat || (!can_u && !can_v)) {
             FreeformLeaf leaf;
             leaf.middle = part.at(0.5, 0.5).at;
@@ -242,7 +227,8 @@ void FreeformSurface::finish() {
         }
         patch.find_bend();
         first_leaf.push_back(static_cast<std::uint32_t>(leaves.size()));
-        cut(patch, static_cast<std::uint32_t>(patches.size()), leaves, boxes);
+        cut(patch, static_cast<std::uint32_t>(patches.size()), most_halvings(shell.patches.size()),
+            leaves, boxes);
         patches.push_back(patch);
     }
     first_leaf.push_back(static_cast<std::uint32_t>(leaves.size()));

@@ -43,14 +43,15 @@ struct FreeformSurface {
     [[nodiscard]] double bytes() const;
 };
 
-/// Faces are numbered 2 p for patch p, and 2 p + 1 where the surface winds around the solid the other way, so that the solid
-/// is before the patch.
+/// Faces are numbered 2 n for patch p, n = p mod kPatchNumbers, and 2 n + 1 where the surface winds around the solid the
+/// other way, so that the solid is before the patch. Patches of the same number are told apart by where they are.
 inline constexpr std::uint16_t kInsideOut = 1;
-/// Patches of a surface, at most.
-inline constexpr std::size_t kMostPatches = 0x7fff;
+inline constexpr std::uint32_t kPatchNumbers = 0x8000;
+/// Patches of a surface, at most: some 300 MB.
+inline constexpr std::size_t kMostPatches = 0x40000;
 
-/// Nodes of a tree that wait for a line, at most: 7 of each level. There are at most 2^22 leaves, 64 of each patch, and all
-/// levels but the last are full.
+/// Nodes of a tree that wait for a line, at most: 7 of each level. There are at most 2^22 leaves, and all levels but the last
+/// are full.
 inline constexpr std::size_t kMostFreeformWaiting = 8 * 9;
 
 /// Error of a place on a patch, seen across a line, when all coordinates are below 1.75: 20 roundings of the sums of

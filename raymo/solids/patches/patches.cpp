@@ -106,22 +106,13 @@ const Schema& Patches::schema() {
 }
 
 Result<Placed<Patches::Kernel>> Patches::prepare(std::span<const Argument> arguments) {
-    const auto refuse = [](Error error) {
-        error.message = "patches: " + error.message;
-        error.argument = 0;
-        return Failure(std::move(error));
-    };
     const std::vector<meshes::GivenNet>& given = *std::get<meshes::NetsPtr>(arguments[0]);
     const bool is_bspline = std::get<std::size_t>(arguments[1]) == kBspline;
     std::vector<meshes::GivenNet> nets = given;
     if (is_bspline) {
         for (meshes::GivenNet& net : nets) net = meshes::bezier_of_bspline(net);
     }
-    auto shell = meshes::sew(nets);
-    if (!shell) return refuse(std::move(shell).error());
-    auto placed = frame_shell(*shell);
-    if (!placed) return refuse(std::move(placed).error());
-    return Placed<Kernel>{Kernel(std::move(placed->kernel)), placed->to_object};
+    return prepare_shell<Patches>(meshes::sew(nets));
 }
 
 std::span<const std::vector<Argument>> Patches::examples() {

@@ -6,11 +6,7 @@
 namespace raymo::solids {
 
 struct Patches {
-    class Kernel : public Freeform {
-    public:
-        using Freeform::Freeform;
-        explicit Kernel(Freeform solid) : Freeform(std::move(solid)) {}
-    };
+    using Kernel = FreeformKernel<Patches>;
 
     [[nodiscard]] static const Schema& schema();
     [[nodiscard]] static Result<Placed<Kernel>> prepare(std::span<const Argument> arguments);

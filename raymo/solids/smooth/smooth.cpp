@@ -77,16 +77,7 @@ const Schema& Smooth::schema() {
 }
 
 Result<Placed<Smooth::Kernel>> Smooth::prepare(std::span<const Argument> arguments) {
-    const auto refuse = [](Error error) {
-        error.message = "smooth: " + error.message;
-        error.argument = 0;
-        return Failure(std::move(error));
-    };
-    auto shell = meshes::smooth(*std::get<meshes::MeshPtr>(arguments[0]));
-    if (!shell) return refuse(std::move(shell).error());
-    auto placed = frame_shell(*shell);
-    if (!placed) return refuse(std::move(placed).error());
-    return Placed<Kernel>{Kernel(std::move(placed->kernel)), placed->to_object};
+    return prepare_shell<Smooth>(meshes::smooth(*std::get<meshes::MeshPtr>(arguments[0])));
 }
 
 std::span<const std::vector<Argument>> Smooth::examples() {

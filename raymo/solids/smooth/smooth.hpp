@@ -7,11 +7,7 @@
 namespace raymo::solids {
 
 struct Smooth {
-    class Kernel : public Freeform {
-    public:
-        using Freeform::Freeform;
-        explicit Kernel(Freeform solid) : Freeform(std::move(solid)) {}
-    };
+    using Kernel = FreeformKernel<Smooth>;
 
     [[nodiscard]] static const Schema& schema();
     [[nodiscard]] static Result<Placed<Kernel>> prepare(std::span<const Argument> arguments);
