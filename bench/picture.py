@@ -98,10 +98,10 @@ def edge_pixels(table):
 class Comparison:
     """How far two pictures of classes agree. See README.md for where the bound comes from."""
 
-    #: A program's silhouette is allowed to be this far off, in pixels.
+    #: A program's silhouette is allowed to be this far off, in pixels, if not said otherwise.
     SILHOUETTE_ERROR = 1e-4
 
-    def __init__(self, ours, theirs):
+    def __init__(self, ours, theirs, silhouette_error=SILHOUETTE_ERROR):
         self.hits_ours = sum(len(row) - row.count(0) for row in ours)
         self.hits_theirs = sum(len(row) - row.count(0) for row in theirs)
         self.pixels = sum(len(row) for row in ours)
@@ -116,7 +116,7 @@ class Comparison:
         self.differing = len(differing)
         self.off_edge = [place for place in differing if place not in edges]
         self.places = differing[:10]
-        expected = 2.0 * self.SILHOUETTE_ERROR * self.edge_length
+        expected = 2.0 * silhouette_error * self.edge_length
         self.bound = int(expected + 4.0 * expected**0.5 + 1.0)
 
     @property

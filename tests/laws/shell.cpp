@@ -103,7 +103,16 @@ meshes::Mesh random_mesh(Random& random) {
     }
     const double moved = random.chance(0.3) ? 0.0 : 0.4;
     for (Vec3& p : out.points) p += random.in_cube(moved);
-    if (random.chance(0.3)) out = meshes::creased_by_angle(std::move(out), 0.0);
+    if (random.chance(0.3)) return meshes::creased_by_angle(std::move(out), 0.0);
+    if (random.chance(0.4)) {
+        // Creases that fade out, pass through points, or meet.
+        std::vector<meshes::Edge> edges;
+        for (std::size_t f = 0; f < out.face_count(); ++f) {
+            if (random.chance(0.3))
+                edges.push_back(meshes::edge_between(out.face(f)[0], out.face(f)[1]));
+        }
+        out = meshes::creased(std::move(out), edges).value();
+    }
     return out;
 }
 

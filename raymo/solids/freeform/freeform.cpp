@@ -5,6 +5,8 @@
 #include <limits>
 #include <string>
 
+#include "raymo/solids/ray_block.hpp"
+
 namespace raymo::solids {
 namespace {
 
@@ -13,6 +15,9 @@ constexpr double kLeastSize = 1e-90, kMostSize = 1e90;
 
 /// Derivatives smaller than this, of a patch about as large as 1, are taken for those where a border has shrunk.
 constexpr double kShrunk = 1e-8;
+
+/// By how much a point that is asked for its normal may miss its patch, far more than any error.
+constexpr double kBesidePatch = 0x1p-10;
 
 double squared(Vec3 a) { return dot(a, a); }
 
@@ -55,6 +60,9 @@ void nearest_place(const FreeformSurface& surface, std::uint32_t number, Vec3 p,
     double least = std::numeric_limits<double>::infinity();
     for (std::uint32_t i = surface.first_leaf[number]; i < surface.first_leaf[number + 1]; ++i) {
         const FreeformLeaf& leaf = surface.leaves[i];
+        // What is not near cannot be nearest, for p is next to the patch.
+        const double near = leaf.reach + kBesidePatch;
+        if (squared(p - leaf.middle) > near * near) continue;
         double x = 0.0, y = 0.0;
         if (!in_plane(p - leaf.middle, leaf.du, leaf.dv, x, y)) x = y = 0.0;
         x = std::clamp(x, -0.5, 0.5);
@@ -81,7 +89,8 @@ void nearest_place(const FreeformSurface& surface, std::uint32_t number, Vec3 p,
         const double step = std::max(std::fabs(next_u - u), std::fabs(next_v - v));
         u = next_u;
         v = next_v;
-        if (step < 1e-8) return;
+        // From a place of the surface itself each step squares what is missing.
+        if (step < 1e-6) return;
     }
 }
 
@@ -213,6 +222,15 @@ Vec3 Freeform::normal(Vec3 p, std::uint16_t face) const {
         n = normal_at(patch, u + (0.5 - u) * inwards, v + (0.5 - v) * inwards);
     if (!good(n)) return {0.0, 0.0, 1.0};
     return (face & kInsideOut) != 0 ? -n : n;
+}
+
+void Freeform::normals(PlaceBlock& places, std::uint32_t asked) const {
+    for (std::uint32_t rest = asked; rest != 0; rest &= rest - 1) {
+        const int i = __builtin_ctz(rest);
+        const Vec3 n = normal({places.p[0][i], places.p[1][i], places.p[2][i]},
+                              static_cast<std::uint16_t>(places.face[i]));
+        for (int a = 0; a < 3; ++a) places.p[a][i] = n[a];
+    }
 }
 
 std::span<const std::string_view> Freeform::faces() const {

@@ -17,6 +17,10 @@
 
 namespace raymo::solids {
 
+struct RayBlock;
+struct SpanBlock;
+struct PlaceBlock;
+
 class Freeform {
 public:
     Freeform() = default;
@@ -25,7 +29,11 @@ public:
 
     [[nodiscard]] Aabb bounds(const Affine& map) const;
     void spans(const LocalRay<double>& ray, SpanList& out) const;
+    /// The same for packets (lanes.cpp): with the same bits, or left over.
+    void spans(const RayBlock& rays, std::uint32_t asked, SpanBlock& out) const;
+    void spans_in_full(const LocalRay<double>& ray, SpanList& out) const { spans(ray, out); }
     [[nodiscard]] Vec3 normal(Vec3 p, std::uint16_t face) const;
+    void normals(PlaceBlock& places, std::uint32_t asked) const;
     [[nodiscard]] Where where(Vec3 p, Vec3 e) const;
     [[nodiscard]] std::span<const std::string_view> faces() const;
     /// Exact but for rounding; parts that the surface winds around twice count twice.

@@ -179,10 +179,22 @@ TEST_CASE("P5: lines through corners, along diagonals and borders of patches alt
 }
 
 TEST_CASE("P6: chords add up to the volume") {
-    for (const bool sharp : {false, true}) {
-        meshes::Mesh mesh =
-            meshes::extrude_mesh({{0, 0}, {3, 0}, {3, 1}, {1, 1}, {1, 2}, {0, 2}}, 1.0, 1).value();
-        if (sharp) mesh = meshes::creased_by_angle(mesh, 30.0);
+    const meshes::Mesh bracket =
+        meshes::extrude_mesh({{0, 0}, {3, 0}, {3, 1}, {1, 1}, {1, 2}, {0, 2}}, 1.0, 1).value();
+    meshes::Mesh octahedron =
+        meshes::make_mesh({{2, 0, 0}, {-2, 0, 0}, {0, 2, 0}, {0, -2, 0}, {0, 0, 2}, {0, 0, -2}},
+                          {{0, 2, 4},
+                           {2, 1, 4},
+                           {1, 3, 4},
+                           {3, 0, 4},
+                           {2, 0, 5},
+                           {1, 2, 5},
+                           {3, 1, 5},
+                           {0, 3, 5}})
+            .value();
+    octahedron = meshes::mapped(octahedron, translation({1.5, 1, 0.5}));
+    for (const meshes::Mesh& mesh :
+         {bracket, meshes::creased_by_angle(bracket, 30.0), octahedron}) {
         const Asked body(meshes::smooth(mesh).value());
         double sum = 0.0;
         constexpr int kCells = 300;

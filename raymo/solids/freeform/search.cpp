@@ -43,7 +43,6 @@ namespace {
 constexpr int kMostParts = 1000;
 /// Halvings that wait: of u and of v, until parts are smaller than any error.
 constexpr std::size_t kMostHalvings = 128;
-constexpr int kMostSteps = 12;
 /// Sides of a part that differ by no more than this, as seen across the line, are about equal.
 constexpr double kEven = 4.0;
 
@@ -241,11 +240,10 @@ FreeformSearch::Answer FreeformSearch::solve(std::uint32_t number, const PatchPa
                                              const FreeformCone& du, const FreeformCone& dv,
                                              double u, double v) {
     const Patch& patch = surface_.patches[number];
-    constexpr double kBeyond = 1.25 * 1.25 * 1.25 * 1.25;
-    const double bend = kBeyond * patch.bend;
+    const double bend = kBeyondPatch * patch.bend;
     const double e = line_.error;
     const double way = cross(du.lo, dv.lo) > 0.0 ? 1.0 : -1.0;
-    for (int step = 0; step < kMostSteps; ++step) {
+    for (int step = 0; step < kMostFreeformSteps; ++step) {
         const PatchJet jet = patch.at(u, v);
         const Vec3 from = jet.at - line_.o;
         const Vec2 f = across(from);

@@ -49,6 +49,10 @@ struct FreeformCone {
     double radius = 0.0;
 };
 
+/// Second derivatives on [0, 1]^2, taken so much larger, bound those beyond it by 1/8.
+inline constexpr double kBeyondPatch = 1.25 * 1.25 * 1.25 * 1.25;
+inline constexpr int kMostFreeformSteps = 12;  ///< of Newton's
+
 /// Looks for the crossing of a line with a part of a patch that it can cross only once: all derivatives by u, times all by
 /// v, turn the same way.
 class FreeformSearch {
@@ -57,11 +61,12 @@ public:
         : surface_(surface), line_(line), found_(found) {}
 
     void run();
+    /// The crossings with one leaf.
+    void meet(const FreeformLeaf& leaf);
 
 private:
     enum class Answer { done, unclear };
     [[nodiscard]] Vec2 across(Vec3 v) const { return {dot(v, line_.side), dot(v, line_.up)}; }
-    void meet(const FreeformLeaf& leaf);
     [[nodiscard]] Answer solve(std::uint32_t patch, const PatchPart& part, const FreeformCone& du,
                                const FreeformCone& dv, double u, double v);
     /// By halving the part until it is missed, or can be met only once, or is as small as the error.

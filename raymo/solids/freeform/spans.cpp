@@ -15,13 +15,14 @@
 // Neighbours lie in directions that are turned by the golden angle, in a disc of radius e, at least 15 errors of the
 // arithmetic, of which borders take a strip of 4 such errors. Eight in a row fail hardly ever but next to tangents; then e is
 // made larger, up to the degenerate.
+#include "raymo/solids/freeform/spans.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "raymo/math/tolerance.hpp"
 #include "raymo/solids/freeform/freeform.hpp"
-#include "raymo/solids/freeform/search.hpp"
 
 namespace raymo::solids {
 namespace {
@@ -172,33 +173,41 @@ bool learn(const FreeformFound& neighbour, Changes& changes, SmallList<std::uint
     return all;
 }
 
+/// The largest error of an end that is not degenerate.
+double most_error(const LocalRay<double>& ray) {
+    return kDegenerate + 1024.0 * (ray.ex + ray.ey + ray.ez);
+}
+
 }  // namespace
+
+FreeformLine line_of(const LocalRay<double>& ray) {
+    FreeformLine line;
+    line.o = {ray.ox, ray.oy, ray.oz};
+    line.along = Vec3{ray.dx, ray.dy, ray.dz} / std::sqrt(ray.dd);
+    make_frame(line.along, line.side, line.up);
+    line.error = (ray.ex + ray.ey + ray.ez) + 4.0 * kFreeformOwnError;
+    return line;
+}
+
+bool tell_certain(const FreeformFound& found, const LocalRay<double>& ray, SpanList& out) {
+    Changes changes;
+    put_hits(found, changes);
+    join(changes);
+    if (!closes(changes)) return false;
+    tell(changes, std::sqrt(ray.dd), most_error(ray), out);
+    return true;
+}
 
 void Freeform::spans(const LocalRay<double>& ray, SpanList& out) const {
     const double length = std::sqrt(ray.dd);
-    FreeformLine line;
-    line.o = {ray.ox, ray.oy, ray.oz};
-    line.along = Vec3{ray.dx, ray.dy, ray.dz} / length;
-    make_frame(line.along, line.side, line.up);
-    const double given = ray.ex + ray.ey + ray.ez;
-    const double limit = kDegenerate + 1024.0 * given;
-    const double error = given + 4.0 * kFreeformOwnError;
-
-    line.error = error;
+    const double limit = most_error(ray);
+    FreeformLine line = line_of(ray);
     Changes changes;
     double angle_cos = 0.8, angle_sin = 0.6;
     for (int round = 0; round < kMostRounds; ++round) {
         FreeformFound found;
         FreeformSearch(*surface_, line, found).run();
-        if (found.doubts.empty()) {
-            put_hits(found, changes);
-            join(changes);
-            if (closes(changes)) {
-                tell(changes, length, limit, out);
-                return;
-            }
-            changes.shrink(0);
-        }
+        if (found.doubts.empty() && tell_certain(found, ray, out)) return;
         if (line.error < 16.0 * kFreeformOwnError) {
             line.error = 16.0 * kFreeformOwnError;
             continue;

@@ -84,6 +84,7 @@ void cut(const Patch& patch, std::uint32_t number, int halvings, std::vector<Fre
             leaf.dv = dv.centre;
             leaf.spread_u = du.radius;
             leaf.spread_v = dv.radius;
+            leaf.reach = 0.5 * (norm(leaf.du) + norm(leaf.dv) + leaf.spread_u + leaf.spread_v);
             leaf.part = at.part;
             leaf.patch = number;
             out.push_back(leaf);

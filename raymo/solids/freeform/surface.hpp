@@ -16,6 +16,7 @@ namespace raymo::solids {
 struct FreeformLeaf {
     Vec3 middle, du, dv;
     double spread_u = 0.0, spread_v = 0.0;
+    double reach = 0.0;  ///< no place of it is further from the middle
     PatchPart part = kWholePatch;
     std::uint32_t patch = 0;
 };

@@ -1,5 +1,6 @@
 #include "raymo/solids/smooth/smooth.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -60,6 +61,18 @@ meshes::Mesh cup(int n) {
     return meshes::creased(std::move(mesh), rim).value();
 }
 
+/// A box of which one edge is sharp in its middle and fades out.
+meshes::Mesh dented() {
+    meshes::Mesh mesh = meshes::box_mesh({3, 2, 1}, {3, 1, 1});
+    const auto number = [&](Vec3 p) {
+        return static_cast<meshes::Index>(std::find(mesh.points.begin(), mesh.points.end(), p) -
+                                          mesh.points.begin());
+    };
+    const std::vector<meshes::Edge> edges{
+        meshes::edge_between(number({1, 0, 1}), number({2, 0, 1}))};
+    return meshes::creased(std::move(mesh), edges).value();
+}
+
 }  // namespace
 
 const Schema& Smooth::schema() {
@@ -81,12 +94,13 @@ Result<Placed<Smooth::Kernel>> Smooth::prepare(std::span<const Argument> argumen
 }
 
 std::span<const std::vector<Argument>> Smooth::examples() {
-    static const std::array<std::vector<Argument>, 7> kExamples{
+    static const std::array<std::vector<Argument>, 8> kExamples{
         {{as_argument(meshes::box_mesh({2, 3, 1}, {1, 1, 1}))},
          {as_argument(octahedron())},
          {as_argument(ring(4, 4))},
          {as_argument(ring(10, 10))},
          {as_argument(cup(6))},
+         {as_argument(dented())},
          {as_argument(meshes::creased_by_angle(meshes::box_mesh({1, 1, 1}, {1, 1, 1}), 30.0))},
          {as_argument(meshes::extrude_mesh(regular(5, 1.0), 40.0, 1).value())}}};
     return kExamples;
