@@ -56,24 +56,24 @@ namespace HWY_NAMESPACE {
 struct LanePair {
     Lanes x, y;
 };
-HWY_INLINE Lanes cross(LanePair a, LanePair b) { return a.x * b.y - a.y * b.x; }
-HWY_INLINE Lanes length(LanePair a) { return lane_sqrt(a.x * a.x + a.y * a.y); }
+RAYMO_INLINE Lanes cross(LanePair a, LanePair b) { return a.x * b.y - a.y * b.x; }
+RAYMO_INLINE Lanes length(LanePair a) { return lane_sqrt(a.x * a.x + a.y * a.y); }
 
-HWY_INLINE Lanes clamp(Lanes x, Lanes lo, Lanes hi) {
+RAYMO_INLINE Lanes clamp(Lanes x, Lanes lo, Lanes hi) {
     return lane_select(x < lo, lo, lane_select(hi < x, hi, x));
 }
-HWY_INLINE Lanes negative(Lanes x) { return Lanes(hn::Neg(x.v)); }
-HWY_INLINE Triple<Lanes> load(const double (&from)[3][8], int first) {
+RAYMO_INLINE Lanes negative(Lanes x) { return Lanes(hn::Neg(x.v)); }
+RAYMO_INLINE Triple<Lanes> load(const double (&from)[3][8], int first) {
     return {load(from[0] + first), load(from[1] + first), load(from[2] + first)};
 }
-HWY_INLINE Triple<Lanes> spread(Vec3 v) { return {Lanes(v.x), Lanes(v.y), Lanes(v.z)}; }
+RAYMO_INLINE Triple<Lanes> spread(Vec3 v) { return {Lanes(v.x), Lanes(v.y), Lanes(v.z)}; }
 
 struct LaneJet {
     Triple<Lanes> at, du, dv;
 };
 struct LaneWeights {
     Lanes value[4], slope[4];
-    HWY_INLINE explicit LaneWeights(Lanes u) {
+    RAYMO_INLINE explicit LaneWeights(Lanes u) {
         const Lanes w = Lanes(1.0) - u;
         const Lanes uu = u * u;
         const Lanes ww = w * w;
@@ -90,7 +90,7 @@ struct LaneWeights {
     }
 };
 /// Patch::at.
-HWY_INLINE LaneJet jet_of(const Patch& patch, Lanes u, Lanes v) {
+RAYMO_INLINE LaneJet jet_of(const Patch& patch, Lanes u, Lanes v) {
     const LaneWeights by_u(u);
     const LaneWeights by_v(v);
     const Lanes* f = by_v.value;
@@ -118,23 +118,23 @@ HWY_INLINE LaneJet jet_of(const Patch& patch, Lanes u, Lanes v) {
 struct LaneLines {
     Triple<Lanes> o, along, side, up;
     Lanes error;
-    HWY_INLINE LaneLines(const FreeformPacket& packet, int first)
+    RAYMO_INLINE LaneLines(const FreeformPacket& packet, int first)
         : o(load(packet.o, first)),
           along(load(packet.along, first)),
           side(load(packet.side, first)),
           up(load(packet.up, first)),
           error(load(packet.error + first)) {}
-    HWY_INLINE LanePair across(Triple<Lanes> v) const { return {dot(v, side), dot(v, up)}; }
+    RAYMO_INLINE LanePair across(Triple<Lanes> v) const { return {dot(v, side), dot(v, up)}; }
 };
 
 /// FreeformSearch's turns(), for the ball about b.
-HWY_INLINE Mask turns(LanePair f, LanePair b, Lanes length_b, Lanes spread, Lanes way, Lanes e) {
+RAYMO_INLINE Mask turns(LanePair f, LanePair b, Lanes length_b, Lanes spread, Lanes way, Lanes e) {
     return way * cross(f, b) > spread * length(f) + e * (length_b + spread);
 }
 
 /// Meets a leaf with the lines of `asked` (bits from `first` on); returns those that must meet it alone.
-HWY_INLINE std::uint32_t meet(const FreeformSurface& surface, const FreeformLeaf& leaf,
-                              FreeformPacket& packet, int first, std::uint32_t asked) {
+RAYMO_INLINE std::uint32_t meet(const FreeformSurface& surface, const FreeformLeaf& leaf,
+                                FreeformPacket& packet, int first, std::uint32_t asked) {
     const LaneLines line(packet, first);
     const LanePair p = line.across(spread(leaf.middle) - line.o);
     const LanePair a = line.across(spread(leaf.du));
@@ -247,8 +247,8 @@ HWY_INLINE std::uint32_t meet(const FreeformSurface& surface, const FreeformLeaf
     return alone | active;
 }
 
-HWY_INLINE void meet_all(const FreeformSurface& surface, const FreeformLeaf& leaf,
-                         FreeformPacket& packet, std::uint32_t asked) {
+RAYMO_INLINE void meet_all(const FreeformSurface& surface, const FreeformLeaf& leaf,
+                           FreeformPacket& packet, std::uint32_t asked) {
     for (int first = 0; first < 8; first += kLanes) {
         const std::uint32_t here = (asked >> first) & ((1U << kLanes) - 1U);
         if (here == 0) continue;
@@ -261,7 +261,7 @@ HWY_INLINE void meet_all(const FreeformSurface& surface, const FreeformLeaf& lea
 }
 
 /// Slabs::met(), of box k, for all lines.
-HWY_INLINE std::uint32_t met(const SlabLanes& slabs, const EightBoxes& boxes, std::size_t k) {
+RAYMO_INLINE std::uint32_t met(const SlabLanes& slabs, const EightBoxes& boxes, std::size_t k) {
     const hn::CappedTag<float, 8> tag;
     constexpr std::size_t kFloats = HWY_MIN(8, HWY_LANES(float));
     std::uint32_t out = 0;
