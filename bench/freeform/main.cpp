@@ -110,7 +110,8 @@ std::vector<solids::LocalRay<double>> bundles(const std::vector<solids::LocalRay
         for (int i = 0; i < 8; ++i) {
             const Vec3 o =
                 Vec3{ray.ox, ray.oy, ray.oz} + s * (0.002 * (i % 4)) + t * (0.002 * (i / 4));
-            out.push_back({o.x, o.y, o.z, ray.dx, ray.dy, ray.dz, ray.ex, ray.ey, ray.ez, ray.dd});
+            out.push_back(
+                {o.x, o.y, o.z, ray.dx, ray.dy, ray.dz, ray.ex, ray.ey, ray.ez, ray.dd, ray.from});
         }
     }
     return out;
@@ -126,6 +127,7 @@ std::vector<solids::RayBlock> blocks_of(const std::vector<solids::LocalRay<doubl
         block.d[0][i] = ray.dx, block.d[1][i] = ray.dy, block.d[2][i] = ray.dz;
         block.e[0][i] = ray.ex, block.e[1][i] = ray.ey, block.e[2][i] = ray.ez;
         block.dd[i] = ray.dd;
+        block.from[i] = ray.from;
     }
     return out;
 }
@@ -159,7 +161,8 @@ int main(int argc, char** argv) {
             Vec3 o = origins[i] / unit_length;
             o -= d * dot(o, d);
             const double e = 0x1p-48;
-            out.push_back({o.x, o.y, o.z, d.x, d.y, d.z, e, e, e, dot(d, d)});
+            out.push_back(
+                {o.x, o.y, o.z, d.x, d.y, d.z, e, e, e, dot(d, d), solids::kFromTheBeginning});
         }
         return out;
     };

@@ -57,7 +57,9 @@ Where beside_leaf(const K& kernel, Vec3 q, Vec3 e, Vec3 d, solids::SpanList& spa
     const double s_q = dot(q, d) / dd;  // q = o + s_q d
     const Vec3 o = q - d * s_q;
     spans.clear();
-    kernel.spans(solids::LocalRay<double>{o.x, o.y, o.z, d.x, d.y, d.z, e.x, e.y, e.z, dd}, spans);
+    kernel.spans(solids::LocalRay<double>{o.x, o.y, o.z, d.x, d.y, d.z, e.x, e.y, e.z, dd,
+                                          solids::kFromTheBeginning},
+                 spans);
     if (spans.degenerate()) return Where::on;
     const double own = 4.0 * (max_norm(e) / std::sqrt(dd) + kPointError * std::fabs(s_q));
     for (std::size_t i = 0; i < spans.size(); ++i) {

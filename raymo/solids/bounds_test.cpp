@@ -34,7 +34,7 @@ double climb(const K& kernel, Vec3 n, Random& random) {
         o += d * shift;
         const double e = 0x1p-50;
         SpanList spans;
-        kernel.spans({o.x, o.y, o.z, d.x, d.y, d.z, e, e, e, dot(d, d)}, spans);
+        kernel.spans({o.x, o.y, o.z, d.x, d.y, d.z, e, e, e, dot(d, d), kFromTheBeginning}, spans);
         for (std::size_t k = 0; k < spans.size(); ++k) {
             for (const double s : {spans[k].enter.s, spans[k].exit.s}) {
                 if (std::isinf(s) && dot(n, d) * s > 0.0) return s * dot(n, d);
@@ -91,7 +91,7 @@ double bundle_volume(const K& kernel, Vec3 direction, int cells, Random& random)
             const double e = 0x1p-50;
             SpanList spans;
             kernel.spans({o.x, o.y, o.z, direction.x, direction.y, direction.z, e, e, e,
-                          dot(direction, direction)},
+                          dot(direction, direction), kFromTheBeginning},
                          spans);
             for (std::size_t k = 0; k < spans.size(); ++k)
                 sum += spans[k].exit.s - spans[k].enter.s;

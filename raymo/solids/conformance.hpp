@@ -134,7 +134,7 @@ bool surface_point(const K& kernel, Random& random, Vec3& p, Vec3& n) {
     o -= d * dot(o, d);
     const double e = 16.0 * kUnitRoundoff;
     SpanList spans;
-    kernel.spans({o.x, o.y, o.z, d.x, d.y, d.z, e, e, e, dot(d, d)}, spans);
+    kernel.spans({o.x, o.y, o.z, d.x, d.y, d.z, e, e, e, dot(d, d), kFromTheBeginning}, spans);
     if (spans.size() == 0) return false;
     const Span& span =
         spans[static_cast<std::size_t>(random.below(static_cast<int>(spans.size())))];
@@ -199,7 +199,7 @@ Probe make_probe(const K& kernel, Random& random) {
                  size * random.uniform(1, 8)};
 
     Probe probe;
-    probe.ray = {o.x, o.y, o.z, d.x, d.y, d.z, e.x, e.y, e.z, dot(d, d)};
+    probe.ray = {o.x, o.y, o.z, d.x, d.y, d.z, e.x, e.y, e.z, dot(d, d), kFromTheBeginning};
     Quad shifted[3], turned[3];
     for (int i = 0; i < 3; ++i) {
         const double share = random.chance(0.3) ? 0.0 : random.uniform(0, 1);

@@ -15,6 +15,11 @@ struct SectionLines {
     R most_noise;
     R from, to;  ///< what is asked about
     LineCrossings<R, M>& found;
+    // Of a prism, boxes that the ray is in only at places from `keep_from` to `keep_to` are looked at. Its place nearest to a
+    // point p of the section is s = along.p - s_o.
+    bool is_prism;
+    R along_x, along_y, s_o, s_slack;
+    R keep_from, keep_to;
 
     static Triple<R> control(const curves::Piece& piece, int k) {
         const auto i = static_cast<std::size_t>(k);
@@ -25,7 +30,12 @@ struct SectionLines {
         const Vec2 c = box.centre();
         const Vec2 half = box.size() * (0.5 * (1.0 + 0x1p-40));
         const R f = n.x * R(c.x) + n.y * R(c.y) + n.z;
-        return lane_abs(f) <= lane_abs(n.x) * R(half.x) + lane_abs(n.y) * R(half.y) + most_noise;
+        const M met =
+            lane_abs(f) <= lane_abs(n.x) * R(half.x) + lane_abs(n.y) * R(half.y) + most_noise;
+        if (!is_prism) return met;
+        const R s = along_x * R(c.x) + along_y * R(c.y) - s_o;
+        const R reach = lane_abs(along_x) * R(half.x) + lane_abs(along_y) * R(half.y) + s_slack;
+        return lane_and(met, lane_and(s + reach >= keep_from, s - reach <= keep_to));
     }
 
     RAYMO_INLINE void meet(const curves::Piece& piece, M asked) {
@@ -97,26 +107,47 @@ RAYMO_INLINE int contour_sweep_spans(const curves::Region& region, double ratio,
     Window<R> between_ends;
     open_window(between_ends);
     clip_slab(between_ends, ray.oz, ray.dz, ray.ez, least_direction(ray), 0.0, 1.0);
-    // Rays that miss the slab for certain are done with.
-    asked = lane_and(asked, between_ends.enter_first <= between_ends.exit_last);
+    // Rays that miss the slab for certain, or have left it, are done with.
+    const R from = lane_max(between_ends.enter_first, ray.from);
+    const R to = between_ends.exit_last;
+    asked = lane_and(asked, from <= to);
     const R stays = R(kSectionStays) * (max_norm(off) + rounding) * lane_sqrt(ray.dd);
     left_over = lane_and(asked, max_norm(cross(a, b)) <= stays);
     const M plain = lane_and(asked, lane_not(left_over));
     if (!lane_any(plain)) return 0;
     LineCrossings<R, M> found(left_over, region.fill());
+    // The winding number at `from` follows from the crossings before it, where the ray comes from outside, or from those
+    // behind it, where it goes there. A prism's rays do both, and the shorter way is taken; of the others those do along
+    // which q grows, or falls.
+    const R inf(std::numeric_limits<double>::infinity());
+    const bool is_prism = ratio == 1.0;
+    const R inverse_square = R(1.0) / (b.x * b.x + b.y * b.y);
+    const R along_x = b.x * inverse_square;
+    const R along_y = b.y * inverse_square;
+    const R s_o = along_x * a.x + along_y * a.y;
+    const M by_past = is_prism ? lane_abs(from + s_o) > lane_abs(to + s_o) : b.z >= R(0.0);
+    const R spread = lane_abs(along_x) + lane_abs(along_y);
+    const R s_slack = R(2.0) * (lane_abs(along_x) * e.x + lane_abs(along_y) * e.y) +
+                      R(0x1p-46) * (spread + lane_abs(s_o));
     SectionLines<R, M> lines{a,
                              b,
                              accurate_cross(a, b),
                              e,
                              R(4.0) * (e.x + e.y + e.z) * max_norm(b),
-                             between_ends.enter_first,
-                             between_ends.exit_last,
-                             found};
+                             from,
+                             to,
+                             found,
+                             is_prism,
+                             along_x,
+                             along_y,
+                             s_o,
+                             s_slack,
+                             lane_select(by_past, R(0.0) - inf, from),
+                             lane_select(by_past, to, inf)};
     walk_lanes<R>(
         region, plain, [&](const Box2& box) RAYMO_INLINE_BODY { return lines.meets(box); },
         [&](std::uint32_t i, M met) RAYMO_INLINE_BODY { lines.meet(region.pieces()[i], met); });
-    // Where q grows along the ray it comes from outside; else that is where it ends.
-    const R winding = found.before - lane_select(b.z >= R(0.0), R(0.0), found.total);
+    const R winding = found.before - lane_select(by_past, R(0.0), found.total);
     const int count = found.spans(ray, plain, winding, between_ends, out);
     left_over = lane_and(asked, found.rest);
     return count;

@@ -45,6 +45,18 @@ struct LineCrossings {
         ++used;
     }
 
+    /// The same, where of interest are only those that may lie behind `from`.
+    RAYMO_INLINE void add_from(M there, R at, R off, R turn, double right_face, R from) {
+        there = lane_and(there, lane_not(at + off < from));
+        total = lane_select(there, wound(total, turn), total);
+        add(there, at, off, turn, right_face);
+    }
+    /// The winding number at `from`, if all that lies behind it was added and it is 0 where the line ends.
+    [[nodiscard]] RAYMO_INLINE R winding_at(R from) const {
+        const R begun = even_odd ? total : R(0.0) - total;
+        return lane_select(from > R(solids::kFromTheBeginning), begun, R(0.0));
+    }
+
     /// The same, where of interest are only those that may lie in [from, to].
     RAYMO_INLINE void add_within(M there, R at, R off, R turn, double right_face, R from, R to) {
         const M early = lane_and(there, at + off < from);
@@ -65,7 +77,9 @@ struct LineCrossings {
         const R inf = R(std::numeric_limits<double>::infinity());
         const M inside = lane_or(winding > R(0.5), winding < R(-0.5));
         rest = lane_or(rest, lane_or(winding > R(1.5), winding < R(-1.5)));
-        if (lane_any(lane_and(asked, inside))) add(inside, zero - inf, zero, winding, 1.0);
+        // Before anything in the solid's box: at infinity no window could be closed.
+        if (lane_any(lane_and(asked, inside)))
+            add(inside, R(-4.0) / lane_sqrt(ray.dd), zero, winding, 1.0);
         int count = 0;
         for (int i = 0; i < used; i += 2) {
             const bool last = i + 1 == used;

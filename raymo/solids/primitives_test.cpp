@@ -12,7 +12,7 @@ namespace {
 constexpr double kError = 0x1p-50;
 
 LocalRay<double> line(Vec3 o, Vec3 d) {
-    return {o.x, o.y, o.z, d.x, d.y, d.z, kError, kError, kError, dot(d, d)};
+    return {o.x, o.y, o.z, d.x, d.y, d.z, kError, kError, kError, dot(d, d), kFromTheBeginning};
 }
 
 template <class K>
@@ -143,7 +143,7 @@ TEST_CASE("torus: a thin ring touched from above by a line that hardly descends"
     const Vec3 d{309557.83582966664, 80116.981442718883, 6.5473518190018279e-06};
     SpanList spans;
     k.spans({0.25055503106318622, -0.96810029254046082, 9.9999900000100091e-07, d.x, d.y, d.z,
-             6.79e-16, 2.38e-16, 2.99e-16, dot(d, d)},
+             6.79e-16, 2.38e-16, 2.99e-16, dot(d, d), kFromTheBeginning},
             spans);
     REQUIRE(spans.size() == 1);
     CHECK(spans[0].enter.s == doctest::Approx(-4.4232972726739e-09).epsilon(1e-6));

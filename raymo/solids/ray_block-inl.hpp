@@ -5,7 +5,7 @@ HWY_INLINE LocalRay<Lanes> load(const RayBlock& rays, int first) {
     return {load(rays.o[0] + first), load(rays.o[1] + first), load(rays.o[2] + first),
             load(rays.d[0] + first), load(rays.d[1] + first), load(rays.d[2] + first),
             load(rays.e[0] + first), load(rays.e[1] + first), load(rays.e[2] + first),
-            load(rays.dd + first)};
+            load(rays.dd + first),   load(rays.from + first)};
 }
 
 /// kernel(ray, asked, spans, left_over) returns how many spans there are at most.

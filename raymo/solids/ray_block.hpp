@@ -17,6 +17,7 @@ struct RayBlock {
     alignas(64) double d[3][8];
     alignas(64) double e[3][8];
     alignas(64) double dd[8];
+    alignas(64) double from[8];
 };
 
 /// Their spans, none of which is a touch or degenerate.

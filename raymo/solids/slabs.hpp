@@ -49,8 +49,10 @@ struct SlabLanes {
 class Slabs {
 public:
     Slabs() = default;
-    /// `error`: of a place on the line.
-    Slabs(Vec3 origin, Vec3 along, double error) {
+    /// `error`: of a place on the line. What the line has met before `past` along it does not count.
+    Slabs(Vec3 origin, Vec3 along, double error,
+          double past = -std::numeric_limits<double>::infinity())
+        : past_(static_cast<float>(past - 0x1p-20 * (1.0 + std::fabs(past)))) {
         const auto margin = static_cast<float>(error * (1.0 + 0x1p-20));
         for (int a = 0; a < 3; ++a) {
             const auto i = static_cast<std::size_t>(a);
@@ -103,12 +105,13 @@ private:
                 exit = far < exit ? far : exit;
             }
         }
-        const FourBits bits = (enter <= exit) & FourBits{1, 2, 4, 8};
+        const FourBits bits = (enter <= exit) & (exit >= past_) & FourBits{1, 2, 4, 8};
         return static_cast<unsigned>(bits[0] | bits[1] | bits[2] | bits[3]);
     }
 
     /// The line's place, moved by the margin against the line for the planes that are met first, and on for the last.
     std::array<float, 3> inverse_, from_first_, from_last_;
+    float past_ = 0.0F;
 };
 
 }  // namespace raymo::solids

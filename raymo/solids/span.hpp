@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "raymo/math/vec.hpp"
@@ -23,7 +24,13 @@ struct LocalRay {
     R dx, dy, dz;
     R ex, ey, ez;
     R dd;  ///< d.d
+    /// Of crossings that lie before this nothing needs to be told but whether the ray is inside behind them: a span may begin
+    /// anywhere else before it instead. Kernels may make use of it.
+    R from;
 };
+
+/// For LocalRay::from, where all crossings are asked for.
+inline constexpr double kFromTheBeginning = -std::numeric_limits<double>::infinity();
 
 /// One end of a span. `error` bounds |computed s - true s|; it grows as the crossing becomes grazing.
 struct SpanEnd {

@@ -31,7 +31,8 @@ SpanList spans_of(const Placed<K>& placed, Vec3 o, Vec3 d, double& shift) {
     at += along * shift;
     const double e = 0x1p-48 * (1.0 + max_norm(back(o)));
     SpanList spans;
-    placed.kernel.spans({at.x, at.y, at.z, along.x, along.y, along.z, e, e, e, dd}, spans);
+    placed.kernel.spans(
+        {at.x, at.y, at.z, along.x, along.y, along.z, e, e, e, dd, kFromTheBeginning}, spans);
     return spans;
 }
 
@@ -121,7 +122,8 @@ double volume(const std::vector<Argument>& arguments) {
             Vec3 o{x, y, 0.0};
             o -= d * (dot(o, d) / dot(d, d));
             SpanList spans;
-            placed->kernel.spans({o.x, o.y, o.z, d.x, d.y, d.z, e, e, e, dot(d, d)}, spans);
+            placed->kernel.spans(
+                {o.x, o.y, o.z, d.x, d.y, d.z, e, e, e, dot(d, d), kFromTheBeginning}, spans);
             for (std::size_t k = 0; k < spans.size(); ++k)
                 sum += spans[k].exit.s - spans[k].enter.s;
         }

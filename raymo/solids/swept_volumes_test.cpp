@@ -61,7 +61,7 @@ template <class K>
 SpanList spans_of(const K& kernel, Vec3 o, Vec3 d) {
     const double e = 0x1p-50;
     SpanList spans;
-    kernel.spans({o.x, o.y, o.z, d.x, d.y, d.z, e, e, e, dot(d, d)}, spans);
+    kernel.spans({o.x, o.y, o.z, d.x, d.y, d.z, e, e, e, dot(d, d), kFromTheBeginning}, spans);
     return spans;
 }
 

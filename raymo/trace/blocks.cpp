@@ -41,7 +41,7 @@ void block_spans(const KernelTables& kernels, const Frame& frame, const solids::
             solids::SpanList spans;
             kernel.spans_in_full(
                 {rays.o[0][i], rays.o[1][i], rays.o[2][i], rays.d[0][i], rays.d[1][i], rays.d[2][i],
-                 rays.e[0][i], rays.e[1][i], rays.e[2][i], rays.dd[i]},
+                 rays.e[0][i], rays.e[1][i], rays.e[2][i], rays.dd[i], rays.from[i]},
                 spans);
             if (spans.touched() || spans.degenerate() || spans.size() > solids::kSweptSpans)
                 continue;

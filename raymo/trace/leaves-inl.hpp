@@ -59,6 +59,15 @@ HWY_INLINE void store(const Ray8& ray, solids::RayBlock& out, int first) {
     store(ray.ey, out.e[1] + first);
     store(ray.ez, out.e[2] + first);
     store(ray.dd, out.dd + first);
+    store(ray.from, out.from + first);
+}
+
+/// Where in a leaf's frame a ray's past ends (LocalRay::from): some way before its start, further than errors reach.
+template <class R>
+HWY_INLINE R end_of_past(R start, R t0, const Local<R>& local) {
+    const R size = R(1.0) + lane_abs(start) + lane_abs(t0) + lane_abs(local.shift);
+    const R slack = R(0x1p-20) * size + R(16.0) * local.place_error;
+    return (start - slack) - (t0 + local.shift);
 }
 
 /// What an end of a span becomes on the base ray. All sums are of the same few doubles in the same
@@ -227,8 +236,9 @@ HWY_INLINE void open_leaf(Walker<1>& w, std::uint32_t context, std::uint32_t ind
     const Leaf& leaf = c.solid->leaves[index];
     const Frame& frame = w.data->frames[leaf.frame];
     ++w.leaves;
-    const Local<double> local = localise<double>(frame, leaf, c.o[0][0], c.o[1][0], c.o[2][0],
-                                                 c.d[0][0], c.d[1][0], c.d[2][0], c.error[0]);
+    Local<double> local = localise<double>(frame, leaf, c.o[0][0], c.o[1][0], c.o[2][0], c.d[0][0],
+                                           c.d[1][0], c.d[2][0], c.error[0]);
+    if (w.mode != Mode::all) local.ray.from = end_of_past(w.lanes[0].start, c.t0[0], local);
     if (frame.type == kInstanceType) {
         open_instance(w, context, index, frame, lanes, &local);
         return;
@@ -251,10 +261,15 @@ HWY_INLINE void open_block_leaf(Walker<8>& w, std::uint32_t context, std::uint32
     alignas(64) double shift[8];
     alignas(64) double slack[8];
     for (int first = 0; first < 8; first += kLanes) {
-        const Local<Lanes> local =
+        Local<Lanes> local =
             localise<Lanes>(frame, leaf, load(c.o[0] + first), load(c.o[1] + first),
                             load(c.o[2] + first), load(c.d[0] + first), load(c.d[1] + first),
                             load(c.d[2] + first), load(c.error + first));
+        if (w.mode != Mode::all) {
+            alignas(64) double start[8];
+            for (int i = 0; i < kLanes; ++i) start[i] = w.lanes[first + i].start;
+            local.ray.from = end_of_past(load(start), load(c.t0 + first), local);
+        }
         store(local.ray, block, first);
         store(local.shift, shift + first);
         store(start_slack(load(c.start_error + first), local.place_error), slack + first);

@@ -46,5 +46,6 @@ RAYMO_INLINE Local<R> localise(const Frame& frame, const Leaf& leaf, R ox, R oy,
     ray.ex = R(frame.error.x) + R(frame.row_length.x) * out.place_error;
     ray.ey = R(frame.error.y) + R(frame.row_length.y) * out.place_error;
     ray.ez = R(frame.error.z) + R(frame.row_length.z) * out.place_error;
+    ray.from = R(solids::kFromTheBeginning);
     return out;
 }

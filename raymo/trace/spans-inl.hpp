@@ -64,7 +64,7 @@ HWY_INLINE void ask_leaf(const Walker<8>& w, std::uint32_t index, int first, std
     const Context<8>& c = w.contexts[0];
     const Leaf& leaf = c.solid->leaves[index];
     const Frame& frame = w.data->frames[leaf.frame];
-    const Local<Lanes> local = localise<Lanes>(
+    Local<Lanes> local = localise<Lanes>(
         frame, leaf, load(c.o[0] + first), load(c.o[1] + first), load(c.o[2] + first),
         load(c.d[0] + first), load(c.d[1] + first), load(c.d[2] + first), load(c.error + first));
     const Lanes slack = w.nearest.on_surface
@@ -74,6 +74,7 @@ HWY_INLINE void ask_leaf(const Walker<8>& w, std::uint32_t index, int first, std
         return local.shift - Lanes(frame.reach) / lane_sqrt(local.ray.dd);
     };
     if (frame.in_blocks) {
+        local.ray.from = end_of_past(load(w.nearest.start + first), Lanes(0.0), local);
         solids::RayBlock block;
         store(local.ray, block, first);
         solids::SpanBlock found;

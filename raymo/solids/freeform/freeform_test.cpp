@@ -28,7 +28,8 @@ struct Asked {
         const Vec3 near = at + d * shift;
         const double e = 0x1p-52;
         SpanList list;
-        placed.kernel.spans({near.x, near.y, near.z, d.x, d.y, d.z, e, e, e, dot(d, d)}, list);
+        placed.kernel.spans(
+            {near.x, near.y, near.z, d.x, d.y, d.z, e, e, e, dot(d, d), kFromTheBeginning}, list);
         if (degenerate != nullptr) *degenerate = list.degenerate();
         std::vector<Span> out;
         for (std::size_t i = 0; i < list.size(); ++i) {
@@ -251,7 +252,8 @@ TEST_CASE("a line through both poles enters at one and leaves at the other") {
              {Vec3{}, Vec3{1e-14, 2e-14, 0}, Vec3{-3e-11, 1e-11, 0}, Vec3{0, 2e-8, 0}}) {
             const double e = 0x1p-52;
             SpanList spans;
-            placed.kernel.spans({aside.x, aside.y, 0, 0, 0, 1, e, e, e, 1}, spans);
+            placed.kernel.spans({aside.x, aside.y, 0, 0, 0, 1, e, e, e, 1, kFromTheBeginning},
+                                spans);
             CHECK_FALSE(spans.degenerate());
             REQUIRE(spans.size() == 1);
             CHECK(spans[0].enter.error < 1e-9);

@@ -327,7 +327,7 @@ void Freeform::spans(const RayBlock& rays, std::uint32_t asked, SpanBlock& out) 
     const auto ray_of = [&](int i) {
         return LocalRay<double>{rays.o[0][i], rays.o[1][i], rays.o[2][i], rays.d[0][i],
                                 rays.d[1][i], rays.d[2][i], rays.e[0][i], rays.e[1][i],
-                                rays.e[2][i], rays.dd[i]};
+                                rays.e[2][i], rays.dd[i],   rays.from[i]};
     };
     FreeformPacket packet;
     for (std::uint32_t rest = asked; rest != 0; rest &= rest - 1) {

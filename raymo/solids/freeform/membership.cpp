@@ -120,7 +120,7 @@ Where Freeform::where(Vec3 p, Vec3 e) const {
         const double shift = dot(p, d) / dd;
         const Vec3 o = p - d * shift;
         SpanList found;
-        spans({o.x, o.y, o.z, d.x, d.y, d.z, 0.0, 0.0, 0.0, dd}, found);
+        spans({o.x, o.y, o.z, d.x, d.y, d.z, 0.0, 0.0, 0.0, dd, kFromTheBeginning}, found);
         if (found.degenerate()) continue;
         bool inside = false;
         bool clear = !found.touched() || shift < found.touch_lo() || shift > found.touch_hi();

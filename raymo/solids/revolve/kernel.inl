@@ -49,6 +49,7 @@ struct ProfileLines {
     R p, q, p2, q2, z0;
     R noise;   ///< of F
     R er, ez;  ///< how near a corner is too near
+    R from;    ///< what lies before it does not count (LocalRay)
     M flat;
     M upwards;
     LineCrossings<R, M> found;
@@ -64,8 +65,9 @@ struct ProfileLines {
         const R slack = er + R(0x1p-45) * (R(1.0) + far);
         const R inner = lane_max(R(box.lo.x) - slack, R(0.0));
         const R outer = R(box.hi.x) + slack;
-        return lane_and(rho * rho + far * far >= inner * inner,
-                        rho * rho + near * near <= outer * outer);
+        const M ahead = lane_not(lane_max(s1, s2) < from);
+        return lane_and(ahead, lane_and(rho * rho + far * far >= inner * inner,
+                                        rho * rho + near * near <= outer * outer));
     }
 
     RAYMO_INLINE void meet(const curves::Piece& piece, M asked) {
@@ -136,6 +138,8 @@ struct ProfileLines {
             lo = lane_select(to_right, lo + R(width), lo);
         }
         leave(open);
+        first.there = lane_and(first.there, lane_not(is_past(first.half)));
+        second.there = lane_and(second.there, lane_not(is_past(second.half)));
         cross(piece, first);
         if (lane_any(second.there)) cross(piece, second);
     }
@@ -163,6 +167,12 @@ private:
             there = lane_or(there, other.there);
         }
     };
+
+    /// Whether all of one half of the hyperbola lies before `from`: s <= s_c, or s >= s_c there.
+    [[nodiscard]] RAYMO_INLINE M is_past(R half) const {
+        const R side = lane_select(upwards, half, R(0.0) - half);
+        return lane_and(side < R(-0.5), s_c < from);
+    }
 
     RAYMO_INLINE void leave(M lines) { found.rest = lane_or(found.rest, lines); }
 
@@ -363,8 +373,8 @@ private:
                                    lane_and(at.half < R(-0.5), lane_not(upwards)));
         const M right =
             lane_or(lane_and(at.rises, forwards), lane_and(lane_not(at.rises), lane_not(forwards)));
-        found.add(lane_and(at.there, certain), s, error, lane_select(right, R(1.0), R(-1.0)),
-                  solids::right_wall(piece.run));
+        found.add_from(lane_and(at.there, certain), s, error, lane_select(right, R(1.0), R(-1.0)),
+                       solids::right_wall(piece.run), from);
     }
 
     /// Leaves rays that come near the end of a piece, or to where it begins or ends on the axis.
@@ -474,13 +484,14 @@ RAYMO_INLINE int revolve_spans(const curves::Region& region, double angle, Vec3 
                              R(2.0) * (up * up * (e.x + e.y) + up * across * e.z),
                              R(4.0) * (e.x + e.y),
                              R(4.0) * e.z,
+                             ray.from,
                              flat,
                              d.z > zero,
                              LineCrossings<R, M>(left_over, region.fill())};
     walk_lanes<R>(
         region, plain, [&](const Box2& box) RAYMO_INLINE_BODY { return lines.meets(box); },
         [&](std::uint32_t i, M met) RAYMO_INLINE_BODY { lines.meet(region.pieces()[i], met); });
-    const int count = lines.found.spans(ray, plain, zero, wedge, out);
+    const int count = lines.found.spans(ray, plain, lines.found.winding_at(ray.from), wedge, out);
     left_over = lane_and(asked, lines.found.rest);
     return count;
 }

@@ -209,6 +209,7 @@ template <class R, class M>
 struct SweepLines {
     Triple<R> o, along, side, up;
     R error;  ///< of a place on it, of a centre and of a radius, together
+    R past;   ///< what lies before it does not count (LocalRay::from)
     LaneChords<R, M>& found;
 
     /// Adds where the lines that are `asked` are inside a piece.
@@ -239,7 +240,7 @@ struct SweepLines {
             const Part part = open[--count];
             const LaneBounds<R, M> b = bounds_of(part.c, part.u1 - part.u0, part.depth);
             M there = lane_and(part.there, b.disc_most > R(0.0) - (b.slack + b.rounding));
-            there = lane_and(there, lane_not(found.rest));
+            there = lane_and(there, lane_not(lane_or(found.rest, b.tau_most + b.wide < past)));
             if (!lane_any(there)) continue;
             if (piece.cut != 0) {
                 leave(there);
@@ -388,7 +389,15 @@ private:
         leave(lane_and(there, lane_not(met)));
         there = lane_and(there, met);
         if (!lane_any(there)) return;
-        const LaneChordEnd<R> first = extremum(piece, whole, u0, u1, bend_first, peak, -1.0, there);
+        // A chord that begins in the past may as well begin where this sphere does.
+        const R early = peak.tau - lane_sqrt(lane_max(peak.disc, zero));
+        const M begun = lane_and(there, early < past);
+        const M begins = lane_and(there, lane_not(begun));
+        LaneChordEnd<R> first{early, early, early, zero};
+        if (lane_any(begins)) {
+            first = choose_end(begun, first,
+                               extremum(piece, whole, u0, u1, bend_first, peak, -1.0, begins));
+        }
         const LaneChordEnd<R> last = extremum(piece, whole, u0, u1, bend_last, peak, 1.0, there);
         const M certain = first.inner <= last.inner;
         leave(lane_and(there, lane_not(certain)));
@@ -494,6 +503,7 @@ RAYMO_INLINE SweepLines<R, M> sweep_lines(const LocalRay<R>& ray, LaneChords<R, 
                          {},
                          {},
                          ray.ex + ray.ey + ray.ez + R(kSweepOwnError),
+                         ray.from / unit,
                          found};
     lane_frame(out.along, out.side, out.up);
     return out;

@@ -253,7 +253,8 @@ TEST_CASE("sweep: spans end where those of a union of balls do") {
             aim(sweep.kernel(), random, o, d);
             const double e = 0x1p-50;
             SpanList list;
-            sweep.kernel().spans({o.x, o.y, o.z, d.x, d.y, d.z, e, e, e, dot(d, d)}, list);
+            sweep.kernel().spans(
+                {o.x, o.y, o.z, d.x, d.y, d.z, e, e, e, dot(d, d), kFromTheBeginning}, list);
             if (list.degenerate()) {
                 ++degenerate;
                 continue;

@@ -49,7 +49,7 @@ void Sweep::Kernel::spans(const LocalRay<double>& ray, SpanList& out) const {
     LaneChords<double, bool> found(false);
     SweepLines<double, bool> lines = sweep_lines<double, bool>(ray, found);
     const Slabs slabs({ray.ox, ray.oy, ray.oz}, {lines.along.x, lines.along.y, lines.along.z},
-                      lines.error);
+                      lines.error, lines.past);
     walk(*spheres_, slabs, [&](const SweptPiece& piece) { lines.meet(piece, !found.rest); });
     LaneSpans<double, bool, kSweptSpans> lanes;
     const int count = found.rest ? 0 : found.spans(true, length, sweep_limit(ray), lanes);

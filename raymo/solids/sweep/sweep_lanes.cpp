@@ -27,7 +27,7 @@ namespace HWY_NAMESPACE {
 /// Slabs of the lines that are `asked`.
 HWY_INLINE void slabs_of(const SweepLines<Lanes, Mask>& lines, std::uint32_t asked,
                          Slabs (&out)[8]) {
-    alignas(64) double o[3][8], along[3][8], error[8];
+    alignas(64) double o[3][8], along[3][8], error[8], past[8];
     store(lines.o.x, o[0]);
     store(lines.o.y, o[1]);
     store(lines.o.z, o[2]);
@@ -35,10 +35,11 @@ HWY_INLINE void slabs_of(const SweepLines<Lanes, Mask>& lines, std::uint32_t ask
     store(lines.along.y, along[1]);
     store(lines.along.z, along[2]);
     store(lines.error, error);
+    store(lines.past, past);
     for (; asked != 0; asked &= asked - 1) {
         const int i = __builtin_ctz(asked);
-        out[i] =
-            Slabs({o[0][i], o[1][i], o[2][i]}, {along[0][i], along[1][i], along[2][i]}, error[i]);
+        out[i] = Slabs({o[0][i], o[1][i], o[2][i]}, {along[0][i], along[1][i], along[2][i]},
+                       error[i], past[i]);
     }
 }
 

@@ -71,7 +71,8 @@ public:
         const Vec3 near = at + d * shift;
         const double e = 0x1p-50;
         SpanList list;
-        placed_.kernel.spans({near.x, near.y, near.z, d.x, d.y, d.z, e, e, e, dot(d, d)}, list);
+        placed_.kernel.spans(
+            {near.x, near.y, near.z, d.x, d.y, d.z, e, e, e, dot(d, d), kFromTheBeginning}, list);
         std::vector<Span> out;
         for (std::size_t i = 0; i < list.size(); ++i) {
             Span span = list[i];
