@@ -42,6 +42,13 @@ double largest_radius(const Body& body, const Segment& segment, double too_large
 
 Failure does_not_fit(const Body& body, const Segment& segment, const Fitting& fitting,
                      double radius) {
+    if (fitting.fit == Fit::endless_bend) {
+        return fail(ErrorCode::out_of_range,
+                    fmt::format("the edge between {} and {} bends too sharply to be followed",
+                                body.name_of(body.faces()[segment.face_a]),
+                                body.name_of(body.faces()[segment.face_b])),
+                    "move or resize one of them, or choose other edges with `near` or `where`");
+    }
     if (fitting.fit == Fit::touching) {
         return fail(
             ErrorCode::out_of_range,
@@ -63,6 +70,29 @@ Failure does_not_fit(const Body& body, const Segment& segment, const Fitting& fi
     return fail(ErrorCode::out_of_range, std::move(message),
                 most > 0.0 ? fmt::format("the largest radius that works here is {:g}", most)
                            : "no radius works here: choose other edges with `near` or `where`");
+}
+
+/// Where a ball fits everywhere, but what it leaves can not be made.
+Failure is_too_sharp(const Body& body, const Segment& segment, double radius, SourceSpan span) {
+    const auto works = [&](double r) {
+        return fitting_of(body, segment, r).fit == Fit::good &&
+               tube_wedge(body, segment, r, segment.lo, segment.hi, span).has_value();
+    };
+    // Two digits are enough.
+    double smaller = 0.0;
+    for (int i = 1; i <= 8 && smaller == 0.0; ++i) {
+        const double unit = std::pow(10.0, std::floor(std::log10(radius * std::exp2(-i))) - 1.0);
+        const double tried = std::floor(radius * std::exp2(-i) / unit) * unit;
+        if (works(tried)) smaller = tried;
+    }
+    return fail(
+        ErrorCode::out_of_range,
+        fmt::format("the edge between {} and {} bends too sharply for a ball of radius {:g}",
+                    body.name_of(body.faces()[segment.face_a]),
+                    body.name_of(body.faces()[segment.face_b]), radius),
+        smaller > 0.0 ? fmt::format("a radius of {:g} works here", smaller)
+                      : "let them meet less slantingly, or choose other edges with `near` "
+                        "or `where`");
 }
 
 bool is_inside(const csg::Solid& solid, Vec3 p) {
@@ -135,15 +165,13 @@ Result<void> check_known(const Body& body, bool within_operands, double radius,
                                 : !within_operands && leaf.operand == other.operand)
                 continue;
             if (overlap(overlap(grown(leaf.box, radius), other.box), choice).empty()) continue;
-            const auto name = [](const Leaf& l) {
-                return solids::inventory()[csg::as_leaf(l.solid.node()).primitive].schema->name;
-            };
-            return fail(ErrorCode::bad_argument,
-                        &leaf == &other
-                            ? fmt::format("the {} can not be blended: {}", name(leaf), leaf.unknown)
-                            : fmt::format("the {} can not be blended with the {}: {}", name(leaf),
-                                          name(other), leaf.unknown),
-                        "blends join planes, spheres, cylinders, cones and tori");
+            return fail(
+                ErrorCode::bad_argument,
+                &leaf == &other
+                    ? fmt::format("{} can not be blended: {}", body.name_of(leaf), leaf.unknown)
+                    : fmt::format("{} can not be blended with {}: {}", body.name_of(leaf),
+                                  body.name_of(other), leaf.unknown),
+                "blends join planes, spheres, cylinders, cones and tori");
         }
     }
     return {};
@@ -209,6 +237,8 @@ Result<Blended> blend(const Body& body, csg::Solid sharp, bool within_operands,
         auto made = segment.space
                         ? tube_wedge(body, segment, form.radius, jobs[i].lo, jobs[i].hi, span)
                         : solid_of(segment, form, jobs[i].lo, jobs[i].hi, span);
+        if (!made && segment.space && made.error().code == ErrorCode::out_of_range)
+            return is_too_sharp(body, segment, form.radius, span);
         if (!made) return Failure(std::move(made).error());
         const Face& face = body.faces()[jobs[i].segment.face_a];
         jobs[i].solid = painted(std::move(*made), body.leaves()[face.leaf].material, span);

@@ -52,6 +52,12 @@ Result<void> Body::add(const csg::Solid& solid, std::size_t operand) {
                 leaf.inverse = inverse(leaf.map);
                 leaf.material = material;
                 leaf.operand = operand;
+                // What blends are made of has the span of the blend itself.
+                leaf.is_blend = node.span.known() &&
+                                std::any_of(open.begin(), open.end(), [&](const Visit& above) {
+                                    return above.solid.node().kind == csg::NodeKind::boolean &&
+                                           above.solid.node().span == node.span;
+                                });
                 leaf.box = std::visit([&](const auto& kernel) { return kernel.bounds(leaf.map); },
                                       csg::as_leaf(node).solid.kernel);
                 // A point this far outside is out whatever its error.
@@ -133,9 +139,14 @@ bool Body::is_on(const Face& face, Vec3 p, double margin) const {
 }
 
 std::string Body::name_of(const Face& face) const {
-    const auto row = csg::as_leaf(leaves_[face.leaf].solid.node()).primitive;
-    return "the " + std::string(face.name) + " of the " +
-           std::string(solids::inventory()[row].schema->name);
+    const Leaf& leaf = leaves_[face.leaf];
+    return leaf.is_blend ? name_of(leaf) : "the " + std::string(face.name) + " of " + name_of(leaf);
+}
+
+std::string Body::name_of(const Leaf& leaf) const {
+    if (leaf.is_blend) return "an earlier blend";
+    const auto row = csg::as_leaf(leaf.solid.node()).primitive;
+    return "the " + std::string(solids::inventory()[row].schema->name);
 }
 
 }  // namespace raymo::blends

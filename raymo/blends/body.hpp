@@ -26,6 +26,7 @@ struct Leaf {
     Aabb near;  ///< the box, grown by much more than rounding
     csg::MaterialId material = csg::kNoMaterial;
     std::size_t operand = 0;  ///< of which operand it is part
+    bool is_blend = false;    ///< part of a blend made before, not a solid that the user wrote
     std::size_t first_face = 0;
     std::size_t face_count = 0;
     /// What can not be blended about it: "its wall is a free-form curve"; empty when all of its faces are told.
@@ -50,8 +51,9 @@ public:
     }
     /// Whether a point lies on the boundary of a face's leaf, or within `margin` of it.
     [[nodiscard]] bool is_on(const Face& face, Vec3 p, double margin = 0.0) const;
-    /// "the top of the block"
+    /// "the top of the block"; "an earlier blend".
     [[nodiscard]] std::string name_of(const Face& face) const;
+    [[nodiscard]] std::string name_of(const Leaf& leaf) const;  ///< "the block"
 
 private:
     /// The Boolean in postfix form: a leaf, or an operation on the `count` values before it.

@@ -13,6 +13,9 @@ using solids::Where;
 
 constexpr double kTurn = 2.0 * std::numbers::pi;
 
+/// Of places that are on neither leaf: not asked for.
+constexpr Sectors kFarSectors = 0x40;
+
 /// Faces at which an edge is crossed, by parameter.
 struct Mark {
     double at;
@@ -104,7 +107,7 @@ private:
     [[nodiscard]] Sectors sectors(const SpaceEdge& edge, std::size_t i, std::size_t k, double t,
                                   std::size_t operand = kBody) const {
         const Vec3 p = edge.point(t);
-        const double step = 0x1p-14 * std::min(reach_, edge.speed());
+        const double step = 0x1p-14 * std::min(reach_, edge.step_at(t));
         return sectors(p, body_.faces()[i].surface.normal(p), body_.faces()[k].surface.normal(p),
                        step, operand);
     }
@@ -256,7 +259,7 @@ private:
 
     /// Turns the sides of a stretch's curves. False when it is no edge to blend.
     bool orient(Sectors sectors, std::size_t i, std::size_t k, Segment& segment) const {
-        if (sectors == kUnknownSectors) return false;
+        if (sectors == kUnknownSectors || sectors == kFarSectors) return false;
         // Another face in the same surface may be the one that bounds the solid here.
         const Vec3 middle = segment.point(segment.middle());
         if (!body_.is_on(body_.faces()[i], middle) || !body_.is_on(body_.faces()[k], middle))
@@ -285,7 +288,7 @@ private:
             if (!segment.space && segment.edge.is_circle) d = std::min(d, std::fabs(d - kTurn));
             if (d <= 4.0 * tiny) end.faces.push_back(mark.face);
         }
-        if (beyond == kUnknownSectors) {
+        if (beyond == kUnknownSectors || beyond == kFarSectors) {
             end.beyond = kUnknownSectors;
             return;
         }
@@ -316,9 +319,10 @@ private:
         const Vec3 n = outward(segment, 0, here);
         for (const Segment& other : segments_) {
             if (other.is_convex != segment.is_convex || !other.space != !segment.space) continue;
-            // A curve in space has its middle anywhere, if it is closed.
-            const double reach = segment.space ? segment.speed() : 0x1p-30 * (reach_ + norm(here));
-            if (!(distance_to(other, here) <= reach)) continue;
+            if (segment.space ? !runs_through(other, here)
+                              : !(norm(other.centre - here) <= 0x1p-30 * (reach_ + norm(here)))) {
+                continue;
+            }
             if (norm(n - outward(other, 0, here)) < kSmooth ||
                 norm(n - outward(other, 1, here)) < kSmooth) {
                 return;
@@ -326,21 +330,39 @@ private:
         }
         segments_.push_back(std::move(segment));
     }
-    static double distance_to(const Segment& segment, Vec3 p) {
-        if (!segment.space || !segment.is_closed) return norm(segment.centre - p);
-        double least = Aabb::kInf;
-        for (double t = 0.0; t < segment.hi; t += 1.0)
-            least = std::min(least, norm(segment.point(t) - p));
-        return least;
+
+    /// Whether a stretch along a curve in space holds a point: the same curve may have been followed from elsewhere.
+    static bool runs_through(const Segment& segment, Vec3 p) {
+        const auto t = segment.space->parameter_of(p);
+        if (!t) return false;
+        if (segment.is_closed) return true;
+        const double turn = segment.space->is_closed() ? segment.space->last() : 0.0;
+        for (const double at : {*t - turn, *t, *t + turn}) {
+            if (at >= segment.lo && at <= segment.hi) return true;
+        }
+        return false;
     }
 
     /// Stretches of a curve in space: between its nodes nothing begins and ends unseen but what is shorter than a step.
     void along_space(const SpaceEdgePtr& edge, std::size_t i, std::size_t k) {
-        const auto n = static_cast<std::size_t>(edge->last());
-        work_ += static_cast<double>(n) * (100.0 + static_cast<double>(body_.leaves().size()));
-        std::vector<Sectors> at(n);
+        const std::size_t n = edge->steps();
+        const auto middle = [&](std::size_t s) {
+            return 0.5 * (edge->node(s) + edge->node(s + 1));
+        };
+        // Most of a curve is on neither leaf; sectors are asked for where it is, and one step beyond.
+        work_ += static_cast<double>(n) * 2.0;
+        std::vector<bool> is_on(n);
         for (std::size_t s = 0; s < n; ++s) {
-            at[s] = sectors(*edge, i, k, static_cast<double>(s) + 0.5);
+            const Vec3 p = edge->point(middle(s));
+            const double margin = 0x1p-20 * reach_;
+            is_on[s] = body_.is_on(body_.faces()[i], p, margin) &&
+                       body_.is_on(body_.faces()[k], p, margin);
+        }
+        std::vector<Sectors> at(n, kFarSectors);
+        for (std::size_t s = 0; s < n; ++s) {
+            if (!is_on[s] && !is_on[(s + 1) % n] && !is_on[(s + n - 1) % n]) continue;
+            at[s] = sectors(*edge, i, k, middle(s));
+            work_ += static_cast<double>(body_.leaves().size());
         }
         const auto change = std::adjacent_find(at.begin(), at.end(), std::not_equal_to<>());
         if (change == at.end() && edge->is_closed()) {
@@ -364,27 +386,28 @@ private:
             const bool open = !edge->is_closed();
             const Sectors before = open && from == 0 ? Sectors{0} : at[(first + from + n - 1) % n];
             const Sectors after = open && to == n ? Sectors{0} : at[(first + to) % n];
-            const auto base = static_cast<double>(first);
+            // The step before the first one of a closed curve is its last.
+            const std::size_t begin = first + from + (open ? 0 : n);
+            const std::size_t end = first + to + (open ? 0 : n);
+            const double turn = open ? 0.0 : edge->last();
             segment.lo = open && from == 0
                              ? 0.0
-                             : between(*edge, i, k, base + static_cast<double>(from) + 0.5,
-                                       base + static_cast<double>(from) - 0.5, now);
+                             : between(*edge, i, k, middle(begin), middle(begin - 1), now) - turn;
             segment.hi = open && to == n
                              ? edge->last()
-                             : between(*edge, i, k, base + static_cast<double>(to) - 0.5,
-                                       base + static_cast<double>(to) + 0.5, now);
+                             : between(*edge, i, k, middle(end - 1), middle(end), now) - turn;
             if (orient(now, i, k, segment)) {
                 marks_.clear();
                 for (std::size_t f = 0; f < body_.faces().size(); ++f) {
                     if (f == i || f == k) continue;
-                    for (const double end : {segment.lo, segment.hi}) {
-                        const Vec3 p = edge->point(end);
+                    for (const double at_end : {segment.lo, segment.hi}) {
+                        const Vec3 p = edge->point(at_end);
                         const double d = std::fabs(body_.faces()[f].surface.distance(p));
-                        if (d <= 0x1p-24 * edge->speed()) marks_.push_back({end, f});
+                        if (d <= 0x1p-24 * edge->step_at(at_end)) marks_.push_back({at_end, f});
                     }
                 }
-                set_end(segment, 0, segment.lo, before, 0x1p-10);
-                set_end(segment, 1, segment.hi, after, 0x1p-10);
+                set_end(segment, 0, segment.lo, before, 0x1p-10 * edge->step_at(segment.lo));
+                set_end(segment, 1, segment.hi, after, 0x1p-10 * edge->step_at(segment.hi));
                 keep(std::move(segment));
             }
             from = to;

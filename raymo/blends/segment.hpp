@@ -44,7 +44,7 @@ struct Segment {
         return space ? space->tangent(t) : edge.tangent(t);
     }
     /// Length of a parameter's step of 1.
-    [[nodiscard]] double speed() const { return space ? space->speed() : edge.speed(); }
+    [[nodiscard]] double speed() const { return space ? 1.0 : edge.speed(); }
     /// The parameter at which a closed curve has come round.
     [[nodiscard]] double period() const;
 

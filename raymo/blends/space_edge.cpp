@@ -12,9 +12,12 @@
 namespace raymo::blends {
 namespace {
 
-/// The tangent turns by no more than this in a step: cubics through the nodes are then within 1e-9 of the radius of curvature.
-constexpr double kMostTurn = 0x1p-6;
+/// The tangent turns by no more than this in a step.
+constexpr double kMostTurn = 0x1p-5;
 constexpr std::size_t kMostNodes = 8192;
+/// Steps, as parts of the box.
+constexpr double kLongest = 0x1p-7;
+constexpr double kShortest = 0x1p-26;
 /// Lines or circles by which branches are looked for.
 constexpr int kFamily = 96;
 /// Surfaces that meet at a smaller sine touch there, as far as following their curve goes.
@@ -56,73 +59,50 @@ bool to_step(const Surface& a, const Surface& b, Vec3 from, double h, Vec3& p) {
 struct Trace {
     std::vector<Vec3> nodes;
     bool is_closed = false;
-    double overshoot =
-        0.0;  ///< of a closed one: from its first node to where the last step would end
-    double sharpest = 0.0;  ///< the largest turn of a step
+    bool is_smooth = true;
 };
 
-/// Follows the curve from p, first along `sense` times its direction, until it closes, leaves the box or touches.
-Trace follow(const Surface& a, const Surface& b, const Aabb& box, Vec3 start, double h,
-             std::size_t most) {
+/// Follows the curve from p, first along its direction, until it closes, leaves the box or touches.
+Trace follow(const Surface& a, const Surface& b, const Aabb& box, Vec3 start) {
     Trace trace;
     trace.nodes.push_back(start);
+    const double longest = kLongest * size_of(box);
+    const double shortest = kShortest * size_of(box);
     for (const double sense : {1.0, -1.0}) {
         Vec3 p = start;
-        while (trace.nodes.size() < most) {
-            const auto t = direction(a, b, p);
-            if (!t) break;
-            Vec3 next = p + *t * (sense * h);
-            if (!to_step(a, b, p, h, next)) break;
-            const auto after = direction(a, b, next);
-            if (after) {
-                const double cosine = std::clamp(dot(*t, *after), -1.0, 1.0);
-                trace.sharpest = std::max(trace.sharpest, std::acos(cosine));
-                if (cosine < 0.0) break;
+        auto way = direction(a, b, p);
+        double h = longest;
+        while (way && box.contains(p)) {
+            if (trace.nodes.size() >= kMostNodes) {
+                trace.is_smooth = false;
+                break;
+            }
+            Vec3 next = p + *way * (sense * h);
+            const bool is_found = to_step(a, b, p, h, next);
+            const auto after = is_found ? direction(a, b, next) : std::nullopt;
+            const double turn =
+                after ? std::acos(std::clamp(dot(*way, *after), -1.0, 1.0)) : std::numbers::pi;
+            if (turn > kMostTurn || dot(next - p, *way) * sense < 0.0) {
+                h *= 0.5;
+                if (h >= shortest) continue;
+                // Where the surfaces touch it ends, anywhere else it is too sharp.
+                trace.is_smooth = is_found && !after && trace.is_smooth;
+                break;
             }
             // Past the start again?
-            if (sense > 0.0 && trace.nodes.size() > 3 && norm(next - start) < h) {
-                const auto at_start = direction(a, b, start);
-                const double ahead = dot(next - start, *at_start);
-                if (ahead >= 0.0) {
-                    trace.is_closed = true;
-                    trace.overshoot = ahead;
-                    return trace;
-                }
+            if (sense > 0.0 && trace.nodes.size() > 3 && norm(next - start) < h &&
+                norm(p - start) < 2.0 * h && dot(next - start, *direction(a, b, start)) >= 0.0) {
+                trace.is_closed = true;
+                if (norm(p - start) < 0.25 * h) trace.nodes.pop_back();
+                trace.nodes.push_back(start);
+                return trace;
             }
             trace.nodes.push_back(next);
             p = next;
-            if (!box.contains(p)) break;
+            way = after;
+            if (turn < 0.25 * kMostTurn) h = std::min(2.0 * h, longest);
         }
         if (sense > 0.0) std::reverse(trace.nodes.begin(), trace.nodes.end());
-    }
-    return trace;
-}
-
-/// A closed curve in steps that end where they began.
-std::optional<Trace> follow_closed(const Surface& a, const Surface& b, const Aabb& box, Vec3 start,
-                                   double h) {
-    Trace trace = follow(a, b, box, start, h, kMostNodes);
-    if (!trace.is_closed) return std::nullopt;
-    // n steps overshoot a little: shorten them until they do not. A multiple of 16 can be taken two, four, ... at a time.
-    const std::size_t count = (trace.nodes.size() + 15) / 16 * 16;
-    const auto n = static_cast<double>(count);
-    double step = h * static_cast<double>(trace.nodes.size()) / n;
-    trace.nodes.resize(count);
-    for (int i = 0; i < 40; ++i) {
-        Vec3 p = start;
-        for (double k = 0; k < n; ++k) {
-            const auto t = direction(a, b, p);
-            if (!t) return std::nullopt;
-            Vec3 next = p + *t * step;
-            if (!to_step(a, b, p, step, next)) return std::nullopt;
-            p = next;
-            if (k + 1 < n) trace.nodes[static_cast<std::size_t>(k) + 1] = p;
-        }
-        const auto t = direction(a, b, start);
-        const double over = dot(p - start, *t);
-        if (std::fabs(over) <= 0x1p-44 * n * step) return trace;
-        step -= over / n;
-        if (!(step > 0.0)) return std::nullopt;
     }
     return trace;
 }
@@ -168,7 +148,54 @@ std::vector<Vec3> free_seeds(const Surface& a, const Surface& b, const Aabb& box
     return out;
 }
 
-/// Meetings of a family of lines or circles on `a` with `b`.
+/// The point on both surfaces that shortest steps lead to.
+bool to_both(const Surface& a, const Surface& b, Vec3& p) {
+    for (int i = 0; i < 50; ++i) {
+        const Vec3 na = a.normal(p);
+        const Vec3 nb = b.normal(p);
+        const double cosine = dot(na, nb);
+        const double square = (1.0 - cosine) * (1.0 + cosine);
+        if (!(square > kTouch * kTouch)) return false;
+        const double off_a = a.distance(p);
+        const double off_b = b.distance(p);
+        const Vec3 step =
+            na * ((off_a - cosine * off_b) / square) + nb * ((off_b - cosine * off_a) / square);
+        p = p - step;
+        if (!is_finite(p)) return false;
+        if (norm(step) * std::sqrt(square) <= rounding_at(a, b, p)) return true;
+    }
+    return false;
+}
+
+/// Places on both surfaces near a line or circle on `a` that passes `b` by less than `apart` of its neighbours: at the least
+/// distances. The distance from a surface changes by no more than the way, so that no place is stepped over.
+template <class Apart>
+void append_misses(const EdgeCurve& line, Vec2 section, const Surface& a, const Surface& b,
+                   const Aabb& box, Apart&& apart, std::vector<Vec3>& out) {
+    constexpr int kMostSteps = 4096;
+    const double speed = line.is_circle ? section.x : 1.0;
+    const double size = size_of(box);
+    const double reach = norm(line.place(section, 0.0) - box.centre()) + size;
+    const double end = line.is_circle ? 2.0 * std::numbers::pi : reach;
+    double t = line.is_circle ? 0.0 : -reach;
+    double last = Aabb::kInf;
+    bool is_falling = false;
+    Vec3 before;
+    for (int i = 0; i < kMostSteps && t < end; ++i) {
+        const Vec3 p = line.place(section, t);
+        const double miss = std::fabs(b.distance(p));
+        if (is_falling && miss >= last && last <= apart(before) && box.contains(before)) {
+            Vec3 q = before;
+            if (to_both(a, b, q) && norm(q - before) <= 4.0 * apart(before)) out.push_back(q);
+        }
+        is_falling = miss < last;
+        last = miss;
+        before = p;
+        t += std::max({0.5 * miss, 0.25 * apart(p), 0x1p-12 * size}) / speed;
+    }
+}
+
+/// Meetings of a family of lines or circles on `a` with `b`, and what may be between them.
 std::vector<Vec3> seeds(const Surface& a, const Surface& b, const Aabb& box) {
     std::vector<Vec3> out;
     std::vector<double> at;
@@ -179,6 +206,13 @@ std::vector<Vec3> seeds(const Surface& a, const Surface& b, const Aabb& box) {
         at.clear();
         append_crossings(line, section, b, -size, size, at);
         for (const double t : at) out.push_back(line.place(section, t));
+        if (a.kind == SurfaceKind::plane) return;
+        // From one line of the family to the next.
+        const auto apart = [&](Vec3 p) {
+            const Vec3 d = p - a.point;
+            return norm(d - a.axis * dot(d, a.axis)) * (2.0 * std::numbers::pi / kFamily);
+        };
+        append_misses(line, section, a, b, box, apart, out);
     };
     Vec3 u;
     Vec3 v;
@@ -236,17 +270,6 @@ std::vector<Vec3> seeds(const Surface& a, const Surface& b, const Aabb& box) {
     return out;
 }
 
-/// Whether a point lies on a curve that is known: near one of its nodes.
-bool is_known(const std::vector<SpaceEdgePtr>& known, Vec3 p) {
-    return std::any_of(known.begin(), known.end(), [&](const SpaceEdgePtr& edge) {
-        const double reach = 0.75 * edge->speed();
-        for (double t = 0.0; t <= edge->last(); t += 1.0) {
-            if (norm(edge->point(t) - p) < reach) return true;
-        }
-        return false;
-    });
-}
-
 }  // namespace
 
 bool to_distances(const Surface& a, double from_a, const Surface& b, double from_b, Vec3 across,
@@ -268,60 +291,80 @@ bool to_distances(const Surface& a, double from_a, const Surface& b, double from
     return false;
 }
 
+SpaceEdge::SpaceEdge(Surface a, Surface b, std::vector<Vec3> nodes, bool is_closed, bool is_smooth)
+    : a_(a), b_(b), nodes_(std::move(nodes)), is_closed_(is_closed), is_smooth_(is_smooth) {
+    at_.reserve(nodes_.size());
+    at_.push_back(0.0);
+    for (std::size_t i = 1; i < nodes_.size(); ++i) {
+        at_.push_back(at_.back() + norm(nodes_[i] - nodes_[i - 1]));
+    }
+}
+
+SpaceEdge::Place SpaceEdge::place_of(double t) const {
+    if (is_closed_) t -= last() * std::floor(t / last());
+    const auto above = std::upper_bound(at_.begin() + 1, at_.end() - 1, t);
+    const auto step = static_cast<std::size_t>(above - at_.begin()) - 1;
+    return {step, (t - at_[step]) / (at_[step + 1] - at_[step])};
+}
+
 Vec3 SpaceEdge::point(double t) const {
-    const auto n = static_cast<double>(nodes_.size());
-    if (is_closed_) t -= n * std::floor(t / n);
-    const double top = is_closed_ ? n - 1.0 : n - 2.0;
-    const double whole = std::clamp(std::floor(t), 0.0, top);
-    const auto i = static_cast<std::size_t>(whole);
+    const auto [i, part] = place_of(t);
     const Vec3 from = nodes_[i];
-    const Vec3 to = nodes_[(i + 1) % nodes_.size()];
-    const double f = t - whole;
-    if (f == 0.0) return from;
-    if (f == 1.0) return to;
-    Vec3 p = from + (to - from) * f;
+    const Vec3 to = nodes_[i + 1];
+    if (part == 0.0) return from;
+    if (part == 1.0) return to;
+    Vec3 p = from + (to - from) * part;
     const Vec3 chord = p;
     return to_distances(a_, 0.0, b_, 0.0, unit(to - from), p) ? p : chord;
 }
 
 Vec3 SpaceEdge::tangent(double t) const {
     const Vec3 p = point(t);
-    const Vec3 ahead = point(t + 0.25) - point(t - 0.25);
+    const std::size_t i = place_of(t).step;
+    const Vec3 ahead = nodes_[i + 1] - nodes_[i];
     const Vec3 across = cross(a_.normal(p), b_.normal(p));
     return unit(dot(across, ahead) < 0.0 ? -across : across);
 }
 
+double SpaceEdge::step_at(double t) const {
+    const std::size_t i = place_of(t).step;
+    return at_[i + 1] - at_[i];
+}
+
+std::optional<double> SpaceEdge::parameter_of(Vec3 p) const {
+    // An arc is off its chord by an eighth of the chord times its turn.
+    for (std::size_t i = 0; i + 1 < nodes_.size(); ++i) {
+        const Vec3 chord = nodes_[i + 1] - nodes_[i];
+        const Vec3 d = p - nodes_[i];
+        const double part = std::clamp(dot(d, chord) / dot(chord, chord), 0.0, 1.0);
+        if (norm(d - chord * part) <= 0.25 * kMostTurn * norm(chord))
+            return at_[i] + part * (at_[i + 1] - at_[i]);
+    }
+    return std::nullopt;
+}
+
 std::vector<SpaceEdgePtr> space_edges(const Surface& a, const Surface& b, const Aabb& box) {
     std::vector<SpaceEdgePtr> out;
-    const bool swap = (a.kind == SurfaceKind::sphere || a.kind == SurfaceKind::torus) &&
-                      b.kind != SurfaceKind::sphere && b.kind != SurfaceKind::torus;
-    const std::vector<Vec3> begin = a.is_free()   ? free_seeds(a, b, box)
-                                    : b.is_free() ? free_seeds(b, a, box)
-                                    : swap        ? seeds(b, a, box)
-                                                  : seeds(a, b, box);
+    std::vector<Vec3> begin;
+    if (a.is_free() || b.is_free()) {
+        begin = a.is_free() ? free_seeds(a, b, box) : free_seeds(b, a, box);
+    } else {
+        begin = seeds(a, b, box);
+        for (const Vec3 p : seeds(b, a, box)) begin.push_back(p);
+    }
     for (Vec3 p : begin) {
-        if (!box.contains(p) || is_known(out, p)) continue;
+        if (!box.contains(p)) continue;
         const auto t = direction(a, b, p);
         if (!t || !to_distances(a, 0.0, b, 0.0, *t, p)) continue;
-        // Shorter steps until the tangent turns little enough in each.
-        double h = size_of(box) / 64.0;
-        Trace trace;
-        bool is_smooth = false;
-        for (int i = 0; i < 16 && !is_smooth; ++i) {
-            Trace next = follow(a, b, box, p, h, kMostNodes);
-            if (next.nodes.size() >= kMostNodes) break;
-            trace = std::move(next);
-            is_smooth = trace.nodes.size() > 8 && trace.sharpest <= kMostTurn;
-            if (!is_smooth) {
-                h *= trace.nodes.size() > 8 && trace.sharpest < 2.0 * kMostTurn ? 0.5 : 0.25;
-            }
+        if (std::any_of(out.begin(), out.end(), [&](const SpaceEdgePtr& edge) {
+                return edge->parameter_of(p).has_value();
+            })) {
+            continue;
         }
+        Trace trace = follow(a, b, box, p);
         if (trace.nodes.size() < 3) continue;
-        if (trace.is_closed && is_smooth) {
-            if (auto closed = follow_closed(a, b, box, p, h)) trace = std::move(*closed);
-        }
         out.push_back(std::make_shared<const SpaceEdge>(a, b, std::move(trace.nodes),
-                                                        trace.is_closed, is_smooth));
+                                                        trace.is_closed, trace.is_smooth));
     }
     return out;
 }

@@ -1,13 +1,15 @@
 // Edges along curves in space: where two surfaces meet that share neither a direction nor an axis.
 //
-// Such a curve has no parameter of its own. It is followed step by step, each of one length h: the next point is where both
-// distances are 0 on the sphere of radius h about the last one, found by Newton's method from the point ahead. Equal steps make
-// the points a smooth function of their number, so that splines through them are as good as their order promises.
-// All branches are found that one of a family of lines or circles on the first surface meets: those meetings are roots of
-// polynomials and none is missed.
+// Such a curve has no parameter of its own. It is followed step by step: the next point is where both distances are 0 on a
+// sphere about the last one, found by Newton's method from the point ahead. Steps are as short as the curve's bends ask for.
+// The parameter is the length of the polygon so far. [mm]
+// Branches are found by families of lines or circles on both surfaces: their meetings with the other surface are roots of
+// polynomials and none is missed. Where such a line passes the other surface by less than its neighbours are away, a branch may
+// slip between them: from there one is looked for by Newton's method.
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "raymo/blends/surface.hpp"
@@ -17,34 +19,46 @@ namespace raymo::blends {
 
 class SpaceEdge {
 public:
-    SpaceEdge(Surface a, Surface b, std::vector<Vec3> nodes, bool is_closed, bool is_smooth)
-        : a_(a), b_(b), nodes_(std::move(nodes)), is_closed_(is_closed), is_smooth_(is_smooth) {}
+    SpaceEdge(Surface a, Surface b, std::vector<Vec3> nodes, bool is_closed, bool is_smooth);
 
     [[nodiscard]] bool is_closed() const { return is_closed_; }
-    /// False where the curve turns sharply, as where two branches cross because the surfaces touch.
+    /// False where the curve turns too sharply to be followed, as where two branches cross because the surfaces touch.
     [[nodiscard]] bool is_smooth() const { return is_smooth_; }
     /// Parameters run from 0 to this; of a closed curve any parameter is good.
-    [[nodiscard]] double last() const {
-        return static_cast<double>(is_closed_ ? nodes_.size() : nodes_.size() - 1);
-    }
-    /// The point at a parameter: a node at whole numbers. Exact but for rounding.
+    [[nodiscard]] double last() const { return at_.back(); }
+    /// The point at a parameter. Exact but for rounding.
     [[nodiscard]] Vec3 point(double t) const;
     /// Unit; the way in which the parameter grows.
     [[nodiscard]] Vec3 tangent(double t) const;
-    /// Length of a parameter's step of 1.
-    [[nodiscard]] double speed() const { return norm(nodes_[1] - nodes_[0]); }
+
+    /// Steps from node to node, at least two.
+    [[nodiscard]] std::size_t steps() const { return at_.size() - 1; }
+    /// The parameter of a node; of a closed curve they go on round it.
+    [[nodiscard]] double node(std::size_t i) const {
+        return at_[i % steps()] + last() * static_cast<double>(i / steps());
+    }
+    /// Length of the step at a parameter.
+    [[nodiscard]] double step_at(double t) const;
+    /// Where on this curve a point is that is on both surfaces, about; empty when it is on another curve.
+    [[nodiscard]] std::optional<double> parameter_of(Vec3 p) const;
 
 private:
+    struct Place {
+        std::size_t step;
+        double part;  ///< of the step
+    };
+    [[nodiscard]] Place place_of(double t) const;
+
     Surface a_, b_;
-    std::vector<Vec3> nodes_;  ///< at equal distances; more than two
+    std::vector<Vec3> nodes_;  ///< of a closed curve the first is the last, too
+    std::vector<double> at_;
     bool is_closed_;
     bool is_smooth_;
 };
 
 using SpaceEdgePtr = std::shared_ptr<const SpaceEdge>;
 
-/// The curves in which two surfaces meet within a bounded box, and a step beyond it. `finest`: steps are not much longer than
-/// this part of it and as short as curvature asks for. Curves that run through a point where the surfaces touch end there.
+/// The curves in which two surfaces meet within a bounded box, and a step beyond it. Curves that run through a point where the surfaces touch end there.
 [[nodiscard]] std::vector<SpaceEdgePtr> space_edges(const Surface& a, const Surface& b,
                                                     const Aabb& box);
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <unordered_map>
 
 #include "raymo/blends/conic.hpp"
 #include "raymo/blends/make.hpp"
@@ -78,27 +79,99 @@ bool is_end(const Segment& segment, std::size_t face, double t, double reach) {
     });
 }
 
-/// Whether another face comes into the ball at parameter t.
-Fitting around(const Body& body, const Segment& segment, Vec3 c, double radius, double t,
-               double margin) {
+/// Whether a third face comes into the ball about c at parameter t.
+bool is_in_the_way(const Body& body, const Segment& segment, std::size_t f, Vec3 c, double radius,
+                   double t, double margin) {
+    // An oblique one reaches some way along.
+    if (is_end(segment, f, t, 4.0 * margin)) return false;
+    const Aabb& box = body.leaves()[body.faces()[f].leaf].box;
+    if (!grown(box, radius).contains(c)) return false;
+    const Surface& surface = body.faces()[f].surface;
+    const double d = surface.distance(c);
+    if (!(std::fabs(d) < (1.0 - kPress) * radius)) return false;
+    const Vec3 n = surface.normal(c);
+    const Vec3 foot = c - n * d;
+    if (!body.is_on(body.faces()[f], foot)) return false;
+    // No farther than roundings ask for: blends have faces just within those of what they blend.
+    const double size = max_norm(foot) + max_norm(max(abs(body.box().lo), abs(body.box().hi)));
+    const Vec3 step = n * (64.0 * kPointError * size);
+    const Where a = body.where(foot - step);
+    const Where b = body.where(foot + step);
+    return a != b && a != Where::on && b != Where::on;
+}
+
+/// How far a point is from a box.
+double gap_to(const Aabb& box, Vec3 p) { return norm(max(max(box.lo - p, p - box.hi), Vec3{})); }
+
+/// Whether third faces come into the ball, or end one of its own faces under it, anywhere from lo to hi. A distance changes by
+/// no more than the way; so a stretch is settled where the distance in its middle is larger than half of it asks for, and
+/// any other is halved, down to kFinest of the radius: what comes into the ball over less is not as deep as 2^-13 of it.
+Fitting among_others(const Body& body, const Segment& segment, double radius, double lo, double hi,
+                     double margin) {
+    constexpr double kFinest = 0x1p-5;
+    constexpr int kMostHalvings = 12;
+    struct Stretch {
+        double lo, hi;
+        int halvings;
+    };
+    // The ways of centre and contacts, in parts of the edge's: exact along lines and circles.
+    const auto way = [&](const Touch& p, const Touch& q) {
+        return std::max({norm(p.centre - q.centre), norm(p.contact[0] - q.contact[0]),
+                         norm(p.contact[1] - q.contact[1])});
+    };
+    const bool is_bent = segment.space || segment.edge.is_circle;
+    // All faces ask for the same places.
+    struct Tried {
+        std::optional<Touch> touch;
+        bool is_good = false;  ///< its contacts are on the faces
+    };
+    std::unordered_map<double, Tried> tried;
+    const auto touch_of = [&](double t) -> Tried& {
+        const auto [place, is_new] = tried.try_emplace(t);
+        if (is_new) place->second.touch = touch_at(body, segment, radius, t);
+        return place->second;
+    };
+    std::vector<Stretch> open;
     for (std::size_t f = 0; f < body.faces().size(); ++f) {
         if (f == segment.face_a || f == segment.face_b) continue;
-        // An oblique one reaches some way along.
-        if (is_end(segment, f, t, 4.0 * margin)) continue;
-        const Aabb& box = body.leaves()[body.faces()[f].leaf].box;
-        if (!grown(box, radius).contains(c)) continue;
+        const Aabb& box = body.leaves()[body.faces()[f].leaf].near;
         const Surface& surface = body.faces()[f].surface;
-        const double d = surface.distance(c);
-        if (!(std::fabs(d) < (1.0 - kPress) * radius)) continue;
-        const Vec3 n = surface.normal(c);
-        const Vec3 foot = c - n * d;
-        if (!body.is_on(body.faces()[f], foot)) continue;
-        // No farther than roundings ask for: blends have faces just within those of what they blend.
-        const double size = max_norm(foot) + max_norm(max(abs(body.box().lo), abs(body.box().hi)));
-        const Vec3 step = n * (64.0 * kPointError * size);
-        const Where a = body.where(foot - step);
-        const Where b = body.where(foot + step);
-        if (a != b && a != Where::on && b != Where::on) return {Fit::blocked, f};
+        open.assign(1, {lo, hi, 0});
+        while (!open.empty()) {
+            const Stretch at = open.back();
+            open.pop_back();
+            const double t = 0.5 * (at.lo + at.hi);
+            Tried& here = touch_of(t);
+            const std::optional<Touch>& touch = here.touch;
+            const std::optional<Touch>& from = touch_of(at.lo).touch;
+            const std::optional<Touch>& to = touch_of(at.hi).touch;
+            if (!touch || !from || !to) return {Fit::none, 0};
+            // Arcs are longer than their chords: by less than a quarter where they turn by less than two radians.
+            const double half = is_bent && at.halvings < 3
+                                    ? (at.hi - at.lo) * segment.speed() + 2.0 * radius
+                                    : 1.25 * std::max(way(*from, *touch), way(*touch, *to));
+            const auto is_clear = [&](Vec3 p, double size) {
+                return std::max(std::fabs(surface.distance(p)), gap_to(box, p)) >= size + half;
+            };
+            if (is_clear(touch->centre, (1.0 - kPress) * radius) &&
+                is_clear(touch->contact[0], 0.0) && is_clear(touch->contact[1], 0.0)) {
+                continue;
+            }
+            if (is_in_the_way(body, segment, f, touch->centre, radius, t, margin))
+                return {Fit::blocked, f};
+            // Where the face ends the edge an oblique one reaches some way along.
+            const bool is_near = std::min(std::fabs(surface.distance(touch->contact[0])),
+                                          std::fabs(surface.distance(touch->contact[1]))) < half;
+            if (is_near && !here.is_good && !is_end(segment, f, t, 4.0 * margin)) {
+                if (const Fitting fit = at_contact(body, segment, *touch, radius);
+                    fit.fit != Fit::good)
+                    return fit;
+                here.is_good = true;
+            }
+            if (half <= kFinest * radius || at.halvings == kMostHalvings) continue;
+            open.push_back({at.lo, t, at.halvings + 1});
+            open.push_back({t, at.hi, at.halvings + 1});
+        }
     }
     return {};
 }
@@ -185,10 +258,13 @@ double extent_of(const Body& body, const Segment& segment, double radius) {
 
 Fitting fitting_of(const Body& body, const Segment& segment, double radius) {
     if (segment.space) {
-        if (!segment.space->is_smooth()) return {Fit::touching, 0};
+        if (!segment.space->is_smooth()) return {Fit::endless_bend, 0};
         const Surface& a = body.faces()[segment.face_a].surface;
         const Surface& b = body.faces()[segment.face_b].surface;
-        for (double t = std::ceil(segment.lo); t <= segment.hi; t += 1.0) {
+        const std::size_t nodes = segment.space->steps() * (segment.space->is_closed() ? 2 : 1);
+        for (std::size_t i = 0; i <= nodes; ++i) {
+            const double t = segment.space->node(i);
+            if (t < segment.lo || t > segment.hi) continue;
             const Vec3 p = segment.point(t);
             if (norm(cross(a.normal(p), b.normal(p))) < kTouching) return {Fit::touching, 0};
         }
@@ -217,15 +293,12 @@ Fitting fitting_of(const Body& body, const Segment& segment, double radius) {
         last = touch->centre;
         if (const Fitting f = at_contact(body, segment, *touch, radius); f.fit != Fit::good)
             return f;
-        if (const Fitting f = around(body, segment, touch->centre, radius, t, margin);
-            f.fit != Fit::good)
-            return f;
         // A ball as large as the whole solid may have its foot on another face where that ends.
         if (body.where(touch->centre) != (segment.is_convex ? Where::in : Where::out))
             return {Fit::none, 0};
         if (lo == hi) break;
     }
-    return {};
+    return among_others(body, segment, radius, lo, hi, margin);
 }
 
 Result<csg::Solid> solid_of(const Segment& segment, const Form& form, double lo, double hi,

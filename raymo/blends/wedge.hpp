@@ -36,16 +36,17 @@ struct Touch {
 /// How a ball fits a body; the worst of what was found.
 enum class Fit : std::uint8_t {
     good,
-    none,      ///< no ball of that radius touches both faces
-    off_face,  ///< it would touch a face where there is none any more
-    blocked,   ///< another face is in its way
-    touching,  ///< the faces meet at too small an angle
+    none,          ///< no ball of that radius touches both faces
+    off_face,      ///< it would touch a face where there is none any more
+    blocked,       ///< another face is in its way
+    touching,      ///< the faces meet at too small an angle
+    endless_bend,  ///< the edge could not be followed where it bends
 };
 struct Fitting {
     Fit fit = Fit::good;
     std::size_t face = 0;  ///< which, if off_face or blocked
 };
-/// Tries the ball at several places along the segment, away from its ends.
+/// Tries the ball along the segment, away from its ends: at several places, and wherever a third face is near.
 [[nodiscard]] Fitting fitting_of(const Body& body, const Segment& segment, double radius);
 
 /// How far a ball that fits and its contacts are away from the edge, at most.

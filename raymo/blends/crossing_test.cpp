@@ -1,0 +1,119 @@
+// Edges along curves in space: that all are found, and that what is in a ball's way is seen wherever it is.
+#include "raymo/blends/segment.hpp"
+#include "raymo/blends/test_blends.hpp"
+
+namespace raymo::blends {
+namespace {
+
+using test::ball;
+using test::blended;
+using test::block;
+using test::cone;
+using test::cylinder;
+using test::kPi;
+using test::made;
+using test::move;
+using test::near;
+using test::Traced;
+using test::turn;
+
+std::vector<Segment> segments_of(const std::vector<csg::Solid>& operands, double reach) {
+    const auto body = Body::make(csg::Op::unite, operands);
+    REQUIRE(body.has_value());
+    auto found = find_segments(*body, false, reach);
+    REQUIRE(found.has_value());
+    return *std::move(found);
+}
+
+csg::Solid steep_cylinder(double radius, double degrees) {
+    return turn(made("cylinder", {radius, 60.0, true}), {1, 0, 0}, degrees);
+}
+
+}  // namespace
+
+TEST_CASE("crossings: two stretches of one curve are two edges") {
+    // The long ellipse in the plate's top leaves it over both of its sides.
+    const csg::Solid plate = move(block(20, 2, 10), {-10, -1, -10});
+    std::size_t on_top = 0;
+    for (const Segment& s : segments_of({plate, steep_cylinder(1.0, 70)}, 0.1)) {
+        if (s.space && std::fabs(s.centre.z) < 1e-12) ++on_top;
+    }
+    CHECK(on_top == 2);
+}
+
+TEST_CASE("crossings: the tip of a cone through a wall makes an edge, however small") {
+    const Vec3 axis = unit(Vec3{1, 1, 0.3});
+    const csg::Solid pipe = turn(steep_cylinder(5, 90), axis, 77);
+    for (const double out : {0.5, 0.1, 0.01, 0.002}) {
+        CAPTURE(out);
+        // Not quite at right angles, so that the ring is no circle.
+        const csg::Solid tip =
+            turn(turn(move(cone(3, 0, 6), {0, 0, 5 + out - 6}), {1, 0, 0}, 0.2), axis, 77);
+        CHECK(segments_of({test::sphere(5), tip}, 0.1 * out).size() == 1);
+        const auto found = segments_of({pipe, tip}, 0.1 * out);
+        REQUIRE(found.size() == 1);
+        CHECK(found[0].space);
+        CHECK(found[0].is_closed);
+    }
+}
+
+TEST_CASE("crossings: a fillet round the sharp bend where a plane cuts a cone next to its tip") {
+    // In the plane of symmetry the ball touches two lines that meet at 30 degrees.
+    const double angle = kPi / 6.0, deep = 0.01, r = 0.3;
+    const csg::Solid plate = move(block(30, 30, 2), {-15, -15, -2});
+    const double length = 12.0;
+    // The tip in (0, 0, -deep), opening along y.
+    const csg::Solid spike =
+        move(turn(cone(0, length * std::tan(angle), length), {1, 0, 0}, -90), {0, 0, -deep});
+    Form form = ball(r);
+    form.near = Vec3{0, deep / std::tan(angle), 0};
+    Traced solid(blended(csg::Op::unite, {plate, spike}, form, 1));
+    const double edge = deep / std::tan(angle);
+    const double centre = edge - r * std::tan(0.5 * angle);
+    for (double y = centre + 0.003; y < centre + r * std::sin(angle); y += 0.00567) {
+        CAPTURE(y);
+        const double rise = r - std::sqrt(r * r - (y - centre) * (y - centre));
+        CHECK(5.0 - solid.first({0, y, 5}, {0, 0, -1}) == near(rise));
+    }
+    // All round the bend, too, there is something of it.
+    CHECK(solid.where({0.01, edge - 0.02, 0.003}) == solids::Where::in);
+}
+
+TEST_CASE("crossings: a pin in the way is seen wherever it stands") {
+    const csg::Solid plate = move(block(1000, 40, 1), {0, -20, -1});
+    const csg::Solid wall = move(block(1000, 5, 5), {0, -5, 0});
+    for (const double x : {10.0, 123.4, 777.7, 801.0}) {
+        CAPTURE(x);
+        const csg::Solid pin = move(cylinder(0.05, 5), {x, 0.5, -0.5});
+        Form form = ball(2.0);
+        form.near = Vec3{400, 0, 0};
+        const auto out = blends::blended(csg::Op::unite, {plate, wall, pin}, form);
+        REQUIRE(!out);
+        CHECK(out.error().message.find("the cylinder is in its way") != std::string::npos);
+    }
+}
+
+TEST_CASE("crossings: a hole under the ball is seen wherever it is") {
+    const csg::Solid wall = move(block(1000, 5, 5), {0, -5, 0});
+    for (const double x : {10.0, 123.4, 777.7, 801.0}) {
+        CAPTURE(x);
+        const csg::Solid plate = csg::boolean(
+            csg::Op::difference,
+            {move(block(1000, 40, 1), {0, -20, -1}), move(cylinder(0.3, 5), {x, 2.0, -3.0})});
+        Form form = ball(2.0);
+        form.near = Vec3{400, 0, 0};
+        const auto out = blends::blended(csg::Op::unite, {plate, wall}, form);
+        REQUIRE(!out);
+        CHECK(out.error().message.find("reaches beyond the top of the block") != std::string::npos);
+    }
+}
+
+TEST_CASE("crossings: what has been rounded has no more edges") {
+    const csg::Solid once = blended(block(10, 20, 30), Edges::convex, ball(2), 12);
+    blended(once, Edges::convex, ball(1), 0);
+    const csg::Solid crossed =
+        blended(csg::Op::unite, {steep_cylinder(5, 90), steep_cylinder(3.5, 20)}, ball(0.5), 2);
+    CHECK(Traced(crossed).where({}) == solids::Where::in);
+}
+
+}  // namespace raymo::blends
