@@ -176,8 +176,50 @@ std::optional<RealVec> Rolled::follow(const RealSection& section, RealVec edge, 
     return y;
 }
 
+std::optional<RealVec> Rolled::nearby(RealVec x, Real r) const {
+    for (int i = 0; i < 60; ++i) {
+        const RealVec a = p_.gradient(x);
+        const RealVec b = q_.gradient(x);
+        const Real off_a = r - p_.distance(x);
+        const Real off_b = r - q_.distance(x);
+        const Real cosine = dot(a, b);
+        const Real det = 1 - cosine * cosine;
+        if (!(det > 1e-9L)) return std::nullopt;
+        const RealVec step =
+            a * ((off_a - cosine * off_b) / det) + b * ((off_b - cosine * off_a) / det);
+        x = x + step;
+        if (!(norm(x) < 1e6L * size_)) return std::nullopt;
+        if (norm(step) > kRounding * size_) continue;
+        if (std::fabs(p_.distance(x) - r) < 16 * kRounding * size_ &&
+            std::fabs(q_.distance(x) - r) < 16 * kRounding * size_)
+            return x;
+        return std::nullopt;
+    }
+    return std::nullopt;
+}
+
+bool Rolled::is_of_edge(RealVec centre) const {
+    RealVec y = centre;
+    Real r = r_;
+    Real step = r_ / 16;
+    while (r > 0) {
+        if (!(step > 1e-6L * r_)) return false;
+        const Real next = std::max(r - step, Real{0});
+        const auto there = nearby(y, next);
+        if (!there || norm(*there - y) > 30 * (r - next) || !p_.has_smooth_foot(*there) ||
+            !q_.has_smooth_foot(*there)) {
+            step /= 2;
+            continue;
+        }
+        y = *there;
+        r = next;
+    }
+    return true;
+}
+
 std::optional<Rolled::Nearest> Rolled::on_spine(RealVec x) const {
     std::optional<Nearest> best;
+    const auto beside = spines_.size() == 1 ? nearby(x, r_) : std::nullopt;
     Real least = std::numeric_limits<Real>::infinity();
     for (std::size_t s = 0; s < spines_.size(); ++s) {
         RealVec y;
@@ -187,6 +229,10 @@ std::optional<Rolled::Nearest> Rolled::on_spine(RealVec x) const {
                 near = norm(point - x);
                 y = point;
             }
+        }
+        if (beside && norm(*beside - x) < near) {
+            near = norm(*beside - x);
+            y = *beside;
         }
         // p = r, q = r, and x in the plane across.
         const auto residual = [&](RealVec at) {

@@ -83,6 +83,11 @@ public:
     }
     /// Where x is in the union with the blended edges closed, unless within `margin` of the boundary.
     [[nodiscard]] Side closing(RealVec x, Real margin) const;
+    /// Whether a point of a spine belongs to an edge: it is followed as r shrinks to 0. A ball that touches both solids where
+    /// they are close to each other, but do not meet, does not.
+    [[nodiscard]] bool is_of_edge(RealVec centre) const;
+    /// The point where p = q = r that shortest steps lead to.
+    [[nodiscard]] std::optional<RealVec> nearby(RealVec x, Real r) const;
     /// The nearest point of the spines, and the number of its spine.
     struct Nearest {
         RealVec at;
