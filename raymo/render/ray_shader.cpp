@@ -121,13 +121,13 @@ void RayShader::look_up(LaneBits lanes) {
         // All that met one material between the same media.
         const int i = lowest_lane(rest);
         LaneBits alike = 0;
-        for (LaneBits others = rest; others != 0; others &= others - 1) {
-            const int k = lowest_lane(others);
-            const bool is = hits_.material[k] == hits_.material[i] &&
-                            hits_.medium_before[k] == hits_.medium_before[i] &&
-                            hits_.medium_after[k] == hits_.medium_after[i];
-            alike |= (is ? 1U : 0U) << k;
+        for (int k = 0; k < 8; ++k) {
+            const std::uint32_t other = (hits_.material[k] ^ hits_.material[i]) |
+                                        (hits_.medium_before[k] ^ hits_.medium_before[i]) |
+                                        (hits_.medium_after[k] ^ hits_.medium_after[i]);
+            alike |= (other == 0 ? 1U : 0U) << k;
         }
+        alike &= rest;
         rest &= ~alike;
         const Surface* material = &surfaces_[hits_.material[i]];
         const Surface& before = surfaces_[hits_.medium_before[i]];
@@ -186,7 +186,7 @@ void RayShader::shade(const RayPacket& rays, LaneBits lanes, const Paths& paths)
         if (lamp.shadows) dim(shadows_, -1);
         add_gains(gains_, spots_);
     }
-    for (LaneBits rest = lanes; rest != 0; rest &= rest - 1) {
+    for (LaneBits rest = lanes & ~spots_.dark; rest != 0; rest &= rest - 1) {
         const int i = lowest_lane(rest);
         answers_->light[paths[static_cast<std::size_t>(i)].owner] +=
             lane_of(spots_.weight, i) * lane_of(spots_.light, i);

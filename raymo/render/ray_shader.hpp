@@ -93,7 +93,7 @@ private:
     trace::Tracer tracer_;
     SurfaceTable surfaces_;
     // Of the packet in hand.
-    trace::HitPacket hits_, shadow_hits_;
+    trace::HitPacket hits_{}, shadow_hits_{};
     Spots spots_;
     Onward reflected_, refracted_;
     Gains gains_;

@@ -15,6 +15,9 @@ RAYMO_INLINE Triple<R> unit_of(Triple<R> a) {
 template <class R>
 RAYMO_INLINE Triple<R> normal_outside(const Frame& frame, Triple<R> n) {
     const Mat3& m = frame.to_local;
+    if (frame.diagonal) {
+        return unit_of(Triple<R>{R(m.row[0].x) * n.x, R(m.row[1].y) * n.y, R(m.row[2].z) * n.z});
+    }
     const auto column = [&](int j) {
         return R(m.row[0][j]) * n.x + R(m.row[1][j]) * n.y + R(m.row[2][j]) * n.z;
     };
