@@ -80,6 +80,10 @@ public:
     [[nodiscard]] const Span& operator[](std::size_t i) const {
         return i < inline_.size() ? inline_[i] : spill_[i - inline_.size()];
     }
+    /// Lets span i begin elsewhere.
+    void begin(std::size_t i, const SpanEnd& at) {
+        (i < inline_.size() ? inline_[i] : spill_[i - inline_.size()]).enter = at;
+    }
 
 private:
     std::array<Span, 4> inline_;

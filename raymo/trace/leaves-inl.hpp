@@ -230,6 +230,21 @@ HWY_INLINE void add_spans(const Walker<L>& w, Lane& lane, const Frame& frame,
     }
 }
 
+/// Whether a span of a leaf may begin elsewhere (LocalRay::from).
+HWY_INLINE bool holds_end_of_past(double enter, double exit, double from) {
+    return enter < from && exit >= from;
+}
+
+/// Where, of all spans of a leaf, the one begins that holds the end of a ray's past: in which order a ray has come into parts
+/// that overlap tells which of their media it is in.
+HWY_INLINE solids::SpanEnd beginning(const solids::SpanList& all, double from,
+                                     const solids::SpanEnd& otherwise) {
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        if (all[i].exit.s >= from) return all[i].enter.s < from ? all[i].enter : otherwise;
+    }
+    return otherwise;
+}
+
 HWY_INLINE void open_leaf(Walker<1>& w, std::uint32_t context, std::uint32_t index,
                           std::uint32_t lanes) {
     const Context<1>& c = w.contexts[context];
@@ -245,9 +260,19 @@ HWY_INLINE void open_leaf(Walker<1>& w, std::uint32_t context, std::uint32_t ind
     }
     const Placing at{c.t0[0], local.shift, start_slack(c.start_error[0], local.place_error), index,
                      context};
-    visit_kernel(w, frame, [&](const auto& kernel) {
+    visit_kernel(w, frame, [&]<class K>(const K& kernel) {
         solids::SpanList spans;
         kernel.spans(local.ray, spans);
+        if constexpr (BlockKernel<K>) {
+            for (std::size_t i = 0; i < spans.size(); ++i) {
+                if (!holds_end_of_past(spans[i].enter.s, spans[i].exit.s, local.ray.from)) continue;
+                LocalRay<double> whole = local.ray;
+                whole.from = solids::kFromTheBeginning;
+                solids::SpanList all;
+                kernel.spans(whole, all);
+                spans.begin(i, beginning(all, local.ray.from, spans[i].enter));
+            }
+        }
         add_spans(w, w.lanes[0], frame, spans, local, at);
     });
 }
@@ -280,11 +305,20 @@ HWY_INLINE void open_block_leaf(Walker<8>& w, std::uint32_t context, std::uint32
         for (std::uint32_t rest = spans.valid[k]; rest != 0; rest &= rest - 1) {
             const int i = __builtin_ctz(rest);
             const Placing at{c.t0[i], shift[i], slack[i], index, context};
-            const auto end = [&](const solids::SpanBlock::End& e, bool enter) {
-                return event_at(at, e.s[k][i], e.error[k][i],
-                                static_cast<std::uint16_t>(e.face[k][i]), enter);
+            const auto end = [&](const solids::SpanBlock::End& e) -> solids::SpanEnd {
+                return {e.s[k][i], e.error[k][i], static_cast<std::uint16_t>(e.face[k][i])};
             };
-            add_span(w, w.lanes[i], end(spans.enter, true), end(spans.exit, false));
+            solids::SpanEnd enter = end(spans.enter);
+            const solids::SpanEnd exit = end(spans.exit);
+            if (holds_end_of_past(enter.s, exit.s, block.from[i])) {
+                const auto local = localise<double>(frame, leaf, c.o[0][i], c.o[1][i], c.o[2][i],
+                                                    c.d[0][i], c.d[1][i], c.d[2][i], c.error[i]);
+                solids::SpanList all;
+                spans_in_full(w.data->kernels, frame, local.ray, all);
+                enter = beginning(all, block.from[i], enter);
+            }
+            add_span(w, w.lanes[i], event_at(at, enter.s, enter.error, enter.face, true),
+                     event_at(at, exit.s, exit.error, exit.face, false));
         }
     }
     for (std::uint32_t rest = spans.left_over; rest != 0; rest &= rest - 1) {

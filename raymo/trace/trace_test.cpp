@@ -1,10 +1,12 @@
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <random>
 
 #include "raymo/csg/model.hpp"
+#include "raymo/curves/samples.hpp"
 #include "raymo/trace/packet.hpp"
 #include "raymo/trace/test_primitive.hpp"
 
@@ -346,6 +348,57 @@ TEST_CASE("trace: told which leaf they start in, packets give the same bits; tol
         }
     }
     CHECK(within > 1000);
+}
+
+TEST_CASE("trace: from within parts that overlap the media are those that all of the line tells") {
+    scene::Scene scene;
+    scene.materials.resize(3);
+    for (auto& material : scene.materials) material.transmission = 0.9;
+    const Solid solids[] = {primitive("prism", {curves::sample_disc(), 2.0}),
+                            primitive("revolve", {curves::sample_half_disc(), 360.0}),
+                            primitive("prism", {curves::sample_rectangle(), 2.0})};
+    for (csg::MaterialId m = 0; m < 3; ++m) {
+        const Vec3 middle = csg::bounds(solids[m]).centre();
+        const Vec3 by{0.2 * static_cast<double>(m), 0.1, 0.15 * static_cast<double>(m)};
+        scene.parts.push_back({"part", csg::paint(moved(solids[m], by - middle), m), {}});
+    }
+    const auto compiled = compile(scene);
+    REQUIRE(compiled.has_value());
+    Tracer tracer(*compiled);
+    std::mt19937_64 random(9);
+    std::uniform_real_distribution<double> uniform(-1, 1);
+    int overlaps = 0;
+    for (int k = 0; k < 2000; ++k) {
+        const Ray ray{{0.5 * uniform(random), 0.5 * uniform(random), 0.5 * uniform(random)},
+                      {uniform(random), uniform(random), uniform(random)}};
+        std::vector<std::vector<PartSpan>> by_part;
+        tracer.spans(ray, by_part);
+        std::vector<Hit> truth;
+        for (const auto& spans : by_part) {
+            for (const PartSpan& span : spans) {
+                truth.push_back(span.enter);
+                truth.push_back(span.exit);
+            }
+        }
+        std::sort(truth.begin(), truth.end(), [](const Hit& a, const Hit& b) { return a.t < b.t; });
+        for (std::size_t i = 1; i < truth.size(); ++i) {
+            if (!(truth[i].t - truth[i - 1].t > 1e-3)) continue;
+            RayQuery query;
+            query.ray = {ray.origin + ray.direction * (0.5 * (truth[i].t + truth[i - 1].t)),
+                         ray.direction};
+            Hit hit;
+            REQUIRE(tracer.first_hit(query, hit));
+            CHECK(hit.part == truth[i].part);
+            CHECK(hit.medium_before == truth[i].medium_before);
+            CHECK(hit.medium_after == truth[i].medium_after);
+            HitPacket together;
+            REQUIRE(tracer.first_hits(packed(std::vector<RayQuery>(8, query)), kAllLanes,
+                                      together) == kAllLanes);
+            CHECK(together.medium_before[3] == truth[i].medium_before);
+            overlaps += hit.medium_before != Hit::kAir && hit.medium_after != Hit::kAir ? 1 : 0;
+        }
+    }
+    CHECK(overlaps > 1000);
 }
 
 TEST_CASE("trace: a solid without end is an error that names it; cut to size it is fine") {

@@ -60,7 +60,9 @@ HWY_INLINE void walk_all(Walker<L>& w) {
         for (std::uint32_t rest = w.active; rest != 0; rest &= rest - 1) {
             const int i = __builtin_ctz(rest);
             Lane& lane = w.lanes[i];
-            if (lane.head < lane.events.size() && lane.events[lane.head].lo < box.t)
+            // What lies before the start is in order only when all boxes are open that it may lie in.
+            const bool in_order = w.mode == Mode::all || box.t > lane.start;
+            if (in_order && lane.head < lane.events.size() && lane.events[lane.head].lo < box.t)
                 w.advance(i, box.t);
             if (lane.done) w.active &= ~(1U << i);
         }
