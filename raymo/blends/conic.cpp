@@ -39,7 +39,9 @@ public:
           range_b_(b_.at(e.b.side * e.b.distance(w.contact[0]))),
           weight_(weight) {}
 
-    [[nodiscard]] bool is_linear() const { return a_.is_linear() && b_.is_linear(); }
+    [[nodiscard]] bool is_linear() const {
+        return a_.is_linear() && b_.is_linear() && !edge_.a.run && !edge_.b.run;
+    }
 
     /// From contact 1 (0) to contact 0 (1), and a little beyond both.
     [[nodiscard]] Vec2 at(double t) const {
@@ -47,7 +49,7 @@ public:
         const double d = s * s + 2.0 * weight_ * s * t + t * t;
         const double from_a = edge_.a.side * a_.distance(range_a_ * s * s / d);
         const double from_b = edge_.b.side * b_.distance(range_b_ * t * t / d);
-        const auto p = meet(edge_.a, from_a, edge_.b, from_b, edge_.branch);
+        const auto p = edge_.at_distances(from_a, from_b);
         RAYMO_ASSERT(p.has_value());
         return *p;
     }

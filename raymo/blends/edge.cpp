@@ -26,7 +26,11 @@ bool is_on(Vec3 p, Vec3 origin, Vec3 direction, double size) {
 
 bool has_axis(const Surface& s) {
     return s.kind == SurfaceKind::cylinder || s.kind == SurfaceKind::cone ||
-           s.kind == SurfaceKind::torus;
+           s.kind == SurfaceKind::torus || s.kind == SurfaceKind::turned;
+}
+/// Whether it may be moved along a direction without changing, and which.
+bool has_direction(const Surface& s) {
+    return s.kind == SurfaceKind::cylinder || s.kind == SurfaceKind::wall;
 }
 
 /// The axis about which both are surfaces of revolution.
@@ -34,6 +38,7 @@ struct Axis {
     Vec3 origin, direction;
 };
 std::optional<Axis> common_axis(const Surface& a, const Surface& b) {
+    if (a.kind == SurfaceKind::wall || b.kind == SurfaceKind::wall) return std::nullopt;
     const double size = size_of(a) + size_of(b);
     if (has_axis(a) && has_axis(b)) {
         if (is_parallel(a.axis, b.axis) && is_on(b.point, a.point, a.axis, size)) {
@@ -66,12 +71,11 @@ std::optional<Vec3> common_direction(const Surface& a, const Surface& b) {
         return norm(d) > kShared ? std::optional(unit(d)) : std::nullopt;
     }
     if (plane_b) return common_direction(b, a);
-    if (b.kind != SurfaceKind::cylinder) return std::nullopt;
+    if (!has_direction(b)) return std::nullopt;
     if (plane_a) {
         return std::fabs(dot(a.axis, b.axis)) <= kShared ? std::optional(b.axis) : std::nullopt;
     }
-    return a.kind == SurfaceKind::cylinder && is_parallel(a.axis, b.axis) ? std::optional(a.axis)
-                                                                          : std::nullopt;
+    return has_direction(a) && is_parallel(a.axis, b.axis) ? std::optional(a.axis) : std::nullopt;
 }
 
 SectionCurve line(Vec2 normal, double offset) {
@@ -85,6 +89,14 @@ SectionCurve circle(Vec2 centre, double radius) {
     c.is_line = false;
     c.centre = centre;
     c.radius = radius;
+    return c;
+}
+
+/// The run of a free-form surface, mapped to the section.
+SectionCurve curve_of(const Surface& s, const Affine2& map) {
+    SectionCurve c;
+    c.is_line = false;
+    c.run = map == Affine2{} ? s.run : std::make_shared<const Run>(s.run->mapped(map));
     return c;
 }
 
@@ -106,8 +118,10 @@ SectionCurve section_beside(const EdgeCurve& e, const Surface& s) {
             return line({s.cosine, -up * s.sine}, -up * s.sine * z);
         case SurfaceKind::torus:
             return circle({s.radius, z}, s.tube);
-        case SurfaceKind::wall:
         case SurfaceKind::turned:
+            // On its head where the section's axis runs the other way.
+            return curve_of(s, {.xx = 1.0, .xy = 0.0, .x = 0.0, .yx = 0.0, .yy = up, .y = z});
+        case SurfaceKind::wall:
             break;
     }
     return {};
@@ -119,10 +133,26 @@ SectionCurve section_across(const EdgeCurve& e, const Surface& s) {
     if (s.kind == SurfaceKind::plane) {
         return line({dot(s.axis, e.across), dot(s.axis, e.up)}, dot(s.axis, d));
     }
+    if (s.kind == SurfaceKind::wall) {
+        return curve_of(s, {.xx = dot(s.across, e.across),
+                            .xy = dot(s.up, e.across),
+                            .x = dot(d, e.across),
+                            .yx = dot(s.across, e.up),
+                            .yy = dot(s.up, e.up),
+                            .y = dot(d, e.up)});
+    }
     return circle({dot(d, e.across), dot(d, e.up)}, s.radius);
 }
 
 void add_edges(EdgeCurve edge, std::vector<EdgeCurve>& out) {
+    if (edge.a.run || edge.b.run) {
+        for (const Vec2 at : run_meetings(edge.a, edge.b)) {
+            if (edge.is_circle && !(at.x > 0.0)) continue;
+            edge.at = at;
+            out.push_back(edge);
+        }
+        return;
+    }
     for (const Branch branch : {Branch::left, Branch::right}) {
         const auto at = meet(edge.a, 0.0, edge.b, 0.0, branch);
         if (!at || (edge.is_circle && !(at->x > 0.0))) continue;
@@ -192,6 +222,13 @@ void append_roots(const Arc& arc, const Surface& s, std::vector<double>& out) {
 /// Where a line or circle crosses a free-form surface: between places at which the distances have different signs.
 void append_free(const EdgeCurve& edge, Vec2 section, const Surface& surface, double lo, double hi,
                  std::vector<double>& out) {
+    // What runs along with a surface is as far from it everywhere.
+    const bool runs_along =
+        edge.is_circle ? surface.kind == SurfaceKind::turned : surface.kind == SurfaceKind::wall;
+    if (runs_along && is_parallel(edge.along, surface.axis) &&
+        (!edge.is_circle || is_on(edge.origin, surface.point, surface.axis, size_of(surface)))) {
+        return;
+    }
     constexpr int kPlaces = 256;
     if (edge.is_circle) {
         lo = 0.0;
@@ -229,6 +266,11 @@ Vec3 EdgeCurve::turn(Vec2 v, double t) const {
     return (across * std::cos(t) + up * std::sin(t)) * v.x + along * v.y;
 }
 
+std::optional<Vec2> EdgeCurve::at_distances(double from_a, double from_b) const {
+    if (a.run || b.run) return follow(a, from_a, b, from_b, at);
+    return meet(a, from_a, b, from_b, branch);
+}
+
 Vec3 EdgeCurve::tangent(double t) const {
     return is_circle ? up * std::cos(t) - across * std::sin(t) : along;
 }
@@ -236,10 +278,6 @@ Vec3 EdgeCurve::tangent(double t) const {
 Meeting meeting_of(const Surface& a, const Surface& b) {
     Meeting meeting;
     EdgeCurve edge;
-    if (a.is_free() || b.is_free()) {
-        meeting.is_general = true;
-        return meeting;
-    }
     if (const auto axis = common_axis(a, b)) {
         edge.is_circle = true;
         edge.origin = axis->origin;
@@ -253,8 +291,15 @@ Meeting meeting_of(const Surface& a, const Surface& b) {
     if (const auto direction = common_direction(a, b)) {
         edge.along = *direction;
         make_frame(edge.along, edge.across, edge.up);
+        // A run keeps its own frame.
+        for (const Surface* s : {&b, &a}) {
+            if (!s->is_free()) continue;
+            edge.across = s->across;
+            edge.up = s->up;
+            edge.along = cross(s->across, s->up);
+        }
         // A point of the line is a better origin than one far from it.
-        edge.origin = b.kind == SurfaceKind::plane ? a.point : b.point;
+        edge.origin = b.kind == SurfaceKind::plane || a.is_free() ? a.point : b.point;
         edge.a = section_across(edge, a);
         edge.b = section_across(edge, b);
         add_edges(edge, meeting.edges);

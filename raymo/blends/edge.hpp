@@ -10,7 +10,8 @@
 
 namespace raymo::blends {
 
-/// A line or a whole circle in which two surfaces meet, with the section in which they are lines and circles (section.hpp).
+/// A line or a whole circle in which two surfaces meet, with the section in which they are lines, circles and runs
+/// (section.hpp).
 /// Parameters along it are lengths on a line [mm] and angles on a circle [radians].
 struct EdgeCurve {
     bool is_circle = false;
@@ -25,6 +26,8 @@ struct EdgeCurve {
     [[nodiscard]] Vec3 place(Vec2 p, double t) const;
     /// The image of a direction of the section.
     [[nodiscard]] Vec3 turn(Vec2 v, double t) const;
+    /// The point of the section at two distances from a and b, that belongs to this edge.
+    [[nodiscard]] std::optional<Vec2> at_distances(double from_a, double from_b) const;
     [[nodiscard]] Vec3 point(double t) const { return place(at, t); }
     /// Unit; the way in which the parameter grows.
     [[nodiscard]] Vec3 tangent(double t) const;

@@ -1,6 +1,7 @@
 // Free-form curves of the plane as boundaries with a distance: smooth runs of a contour's spans.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -18,11 +19,29 @@ public:
         Vec2 point;
         Vec2 normal;      ///< unit, to the right of the run
         double distance;  ///< positive on the right
+        double at;        ///< parameter: span by span, each from 0 to 1; beyond an end that end's
     };
     /// The nearest point. On the run's evolute one of several. Cost: about 1 us for each hundred spans.
     [[nodiscard]] Nearest nearest(Vec2 p) const;
 
+    /// Where a function of the plane changes its sign along the run and, for 2^-6 of its size, straight on beyond its
+    /// ends. The function may change by no more than the way, as distances do. Two changes that are closer than 1/64 of the
+    /// way between two samples may be missed.
+    [[nodiscard]] std::vector<Vec2> crossings(const std::function<double(Vec2)>& distance) const;
+
+    /// Appends the run from one parameter to another, moved to its right by `by`, which must be much less than its bends: by
+    /// cubics with its tangents, which are off by less than 2^-30 of the size of polynomial spans and 2^-24 of rational ones.
+    /// Backwards where `from` > `to`; of a closed run the shorter way round.
+    void append_moved(double from, double to, double by, curves::Curve& curve) const;
+
+    /// The image under a map that keeps lengths; where that is a reflection, run through from its end, so that its right
+    /// side stays the right one.
+    [[nodiscard]] Run mapped(const Affine2& map) const;
     [[nodiscard]] bool is_closed() const { return is_closed_; }
+    /// The radius of a circle that holds it.
+    [[nodiscard]] double size() const { return size_; }
+    /// The least distance between two samples next to each other.
+    [[nodiscard]] double grain() const { return grain_; }
     /// Points along it, eight for each span.
     [[nodiscard]] const std::vector<Vec2>& samples() const { return samples_; }
 
@@ -32,9 +51,16 @@ private:
     };
     [[nodiscard]] Jet jet(double u) const;
     [[nodiscard]] double end() const { return static_cast<double>(spans_.size()); }
+    /// The run's place and unit tangent, moved to its right.
+    struct Moved {
+        Vec2 point, way;
+    };
+    [[nodiscard]] Moved moved(double u, double by) const;
 
     std::vector<curves::Span2> spans_;
     std::vector<Vec2> samples_;
+    double size_ = 0.0;
+    double grain_ = 0.0;
     bool is_closed_;
 };
 

@@ -1,21 +1,34 @@
 #include "raymo/blends/section.hpp"
 
+#include <algorithm>
 #include <cmath>
+
+#include "raymo/math/tolerance.hpp"
 
 namespace raymo::blends {
 namespace {
 
 Vec2 turned(Vec2 v) { return {-v.y, v.x}; }
 
+/// Of the size: what counts as met. A hundred times what distances are off by, and far less than anything drawn.
+constexpr double kMet = 0x1p-40;
+/// The way from an edge to a centre is divided into so many steps.
+constexpr int kSteps = 16;
+constexpr int kMostIterations = 40;
+/// Curves whose normals' sine is smaller run along with each other.
+constexpr double kTouching = 0x1p-20;
+
 double signed_by(Branch branch, double value) { return branch == Branch::left ? value : -value; }
 
 }  // namespace
 
 double SectionCurve::distance(Vec2 p) const {
+    if (run) return side * run->nearest(p).distance;
     return side * (is_line ? dot(normal, p) - offset : norm(p - centre) - radius);
 }
 
 Vec2 SectionCurve::outward(Vec2 p) const {
+    if (run) return run->nearest(p).normal * side;
     if (is_line) return normal * side;
     const Vec2 d = p - centre;
     const double r = norm(d);
@@ -56,6 +69,50 @@ std::optional<Vec2> meet(const SectionCurve& a, double from_a, const SectionCurv
     const double square = (ra - x) * (ra + x);
     if (!(square >= 0.0)) return std::nullopt;
     return a.centre + along * x + turned(along) * signed_by(branch, std::sqrt(square));
+}
+
+std::vector<Vec2> run_meetings(const SectionCurve& a, const SectionCurve& b) {
+    if (!a.run) return run_meetings(b, a);
+    std::vector<Vec2> out;
+    for (const Vec2 found : a.run->crossings([&](Vec2 p) { return b.distance(p); })) {
+        // Where a distance jumps nothing is met.
+        const Vec2 p = found;
+        const double size = max_norm(p) + a.run->size();
+        if (!(std::fabs(b.distance(p)) <= kMet * size)) continue;
+        const bool is_old =
+            std::any_of(out.begin(), out.end(), [&](Vec2 q) { return norm(p - q) <= kMet * size; });
+        if (!is_old) out.push_back(p);
+    }
+    return out;
+}
+
+std::optional<Vec2> follow(const SectionCurve& a, double from_a, const SectionCurve& b,
+                           double from_b, Vec2 at) {
+    const double size =
+        max_norm(at) + (a.run ? a.run->size() : a.radius) + (b.run ? b.run->size() : b.radius);
+    Vec2 p = at;
+    for (int step = 1; step <= kSteps; ++step) {
+        const double part = static_cast<double>(step) / kSteps;
+        const Vec2 before = p;
+        double way = 0.0;
+        bool is_found = false;
+        for (int i = 0; i < kMostIterations && !is_found; ++i) {
+            const Vec2 na = a.outward(p);
+            const Vec2 nb = b.outward(p);
+            const double det = cross(na, nb);
+            if (!(std::fabs(det) > kTouching)) return std::nullopt;
+            const double off_a = part * from_a - a.distance(p);
+            const double off_b = part * from_b - b.distance(p);
+            const Vec2 d{(off_a * nb.y - off_b * na.y) / det, (off_b * na.x - off_a * nb.x) / det};
+            p = p + d;
+            if (!is_finite(p)) return std::nullopt;
+            if (i == 0) way = norm(d);
+            is_found = norm(d) * std::fabs(det) <= 64.0 * kUnitRoundoff * size;
+        }
+        // Newton's method may have gone to another place at the same distances.
+        if (!is_found || norm(p - before) > 2.0 * way + 0x1p-30 * size) return std::nullopt;
+    }
+    return p;
 }
 
 curves::Span2 conic_arc(Vec2 a, Vec2 b, Vec2 c, double weight) {

@@ -98,7 +98,8 @@ private:
                                   double most = Aabb::kInf) const {
         double step = std::min(most, 0x1p-14 * reach_);
         for (const SectionCurve* c : {&edge.a, &edge.b}) {
-            if (!c->is_line) step = std::min(step, 0x1p-14 * c->radius);
+            if (!c->is_line)
+                step = std::min(step, 0x1p-14 * (c->run ? c->run->grain() : c->radius));
         }
         if (edge.is_circle) step = std::min(step, 0x1p-14 * edge.at.x);
         return sectors(edge.point(t), edge.turn(edge.a.outward(edge.at), t),
@@ -398,14 +399,8 @@ private:
                              : between(*edge, i, k, middle(end - 1), middle(end), now) - turn;
             if (orient(now, i, k, segment)) {
                 marks_.clear();
-                for (std::size_t f = 0; f < body_.faces().size(); ++f) {
-                    if (f == i || f == k) continue;
-                    for (const double at_end : {segment.lo, segment.hi}) {
-                        const Vec3 p = edge->point(at_end);
-                        const double d = std::fabs(body_.faces()[f].surface.distance(p));
-                        if (d <= 0x1p-24 * edge->step_at(at_end)) marks_.push_back({at_end, f});
-                    }
-                }
+                segment.lo = mark_end(*edge, i, k, segment.lo);
+                segment.hi = mark_end(*edge, i, k, segment.hi);
                 set_end(segment, 0, segment.lo, before, 0x1p-10 * edge->step_at(segment.lo));
                 set_end(segment, 1, segment.hi, after, 0x1p-10 * edge->step_at(segment.hi));
                 keep(std::move(segment));
@@ -413,6 +408,47 @@ private:
             from = to;
         }
     }
+    /// The end of a stretch to the last bits, with the faces there as marks. Sectors are asked for beside the curve, where an
+    /// oblique face is met earlier or later than on it.
+    double mark_end(const SpaceEdge& edge, std::size_t i, std::size_t k, double about) {
+        const double slack = 0x1p-8 * std::min(reach_, edge.step_at(about));
+        const Vec3 p = edge.point(about);
+        double end = about;
+        double off = Aabb::kInf;
+        const auto is_candidate = [&](std::size_t f) {
+            return f != i && f != k && std::fabs(body_.faces()[f].surface.distance(p)) <= slack &&
+                   body_.is_on(body_.faces()[f], p, slack);
+        };
+        for (std::size_t f = 0; f < body_.faces().size(); ++f) {
+            if (!is_candidate(f)) continue;
+            const Surface& surface = body_.faces()[f].surface;
+            const auto distance = [&](double t) { return surface.distance(edge.point(t)); };
+            double inner = about - slack;
+            double outer = about + slack;
+            if (!edge.is_closed()) {
+                inner = std::max(inner, 0.0);
+                outer = std::min(outer, edge.last());
+            }
+            const bool before = distance(inner) < 0.0;
+            if ((distance(outer) < 0.0) == before) continue;
+            for (int step = 0; step < 60; ++step) {
+                const double middle = 0.5 * (inner + outer);
+                ((distance(middle) < 0.0) == before ? inner : outer) = middle;
+            }
+            if (std::fabs(inner - about) < off) {
+                off = std::fabs(inner - about);
+                end = inner;
+            }
+        }
+        const Vec3 at = edge.point(end);
+        for (std::size_t f = 0; f < body_.faces().size(); ++f) {
+            if (f == i || f == k) continue;
+            const double d = std::fabs(body_.faces()[f].surface.distance(at));
+            if (d <= 0x1p-24 * edge.step_at(end)) marks_.push_back({end, f});
+        }
+        return end;
+    }
+
     /// Where the sectors, which are `now` at `inner`, cease to be so on the way to `outer`.
     double between(const SpaceEdge& edge, std::size_t i, std::size_t k, double inner, double outer,
                    Sectors now) const {

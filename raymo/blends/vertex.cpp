@@ -241,35 +241,45 @@ void add_to(const Body& body, Corner& corner, std::size_t face, double side) {
     corner.sides.push_back(side);
 }
 
-/// The point at the distances `d` from three faces, by Newton's method from `p`.
-std::optional<Vec3> meet(const Body& body, const Corner& corner, double d, Vec3 p) {
-    for (int i = 0; i < 50; ++i) {
-        Mat3 m;
-        Vec3 off;
-        for (int k = 0; k < 3; ++k) {
-            const auto at = static_cast<std::size_t>(k);
-            const Surface& s = body.faces()[corner.faces[at]].surface;
-            m.row[at] = s.normal(p) * corner.sides[at];
-            off[k] = d - s.distance(p) * corner.sides[at];
+/// The point at the distance `d` from three faces, by Newton's method, followed from the corner as d grows.
+std::optional<Vec3> meet(const Body& body, const Corner& corner, double d) {
+    constexpr int kSteps = 16;
+    Vec3 p = corner.point;
+    for (int step = 1; step <= kSteps; ++step) {
+        const double now = d * step / kSteps;
+        bool is_found = false;
+        for (int i = 0; i < 50 && !is_found; ++i) {
+            Mat3 m;
+            Vec3 off;
+            for (int k = 0; k < 3; ++k) {
+                const auto at = static_cast<std::size_t>(k);
+                const Surface& s = body.faces()[corner.faces[at]].surface;
+                m.row[at] = s.normal(p) * corner.sides[at];
+                off[k] = now - s.distance(p) * corner.sides[at];
+            }
+            if (!is_invertible(m)) return std::nullopt;
+            const Vec3 way = inverse(m) * off;
+            p = p + way;
+            if (!is_finite(p)) return std::nullopt;
+            is_found = norm(way) <= 8.0 * 0x1p-53 * (max_norm(p) + std::fabs(d));
         }
-        if (!is_invertible(m)) return std::nullopt;
-        const Vec3 step = inverse(m) * off;
-        p = p + step;
-        if (!is_finite(p)) return std::nullopt;
-        if (norm(step) <= 8.0 * 0x1p-53 * (max_norm(p) + std::fabs(d))) return p;
+        if (!is_found && step == kSteps) return std::nullopt;
     }
-    return std::nullopt;
+    return p;
 }
 
 /// Between the ball at `c` and the planes through c and two of its contacts each: a pyramid without end but for the planes
-/// that touch the ball at the contacts, moved away a little. Where all are at right angles it is a block.
-Result<csg::Solid> ball_corner(const std::array<Vec3, 3>& to_contact, Vec3 c, double radius,
-                               SourceSpan span) {
+/// that touch the ball at the contacts, moved away a little, and as far as the corner is: a hollow wall goes on beyond them.
+/// Where all are at right angles it is a block.
+Result<csg::Solid> ball_corner(const std::array<Vec3, 3>& to_contact, Vec3 c, Vec3 corner,
+                               double radius, SourceSpan span) {
     auto ball = make<solids::Sphere>({radius}, span);
     if (!ball) return ball;
     ball = csg::transform(std::move(*ball), translation(c), span);
     if (!ball) return ball;
-    const double size = radius * (1.0 + 0x1p-20);
+    double size = radius;
+    for (const Vec3 p : to_contact) size = std::max(size, dot(p, corner - c));
+    size += 0x1p-20 * radius;
     const auto is_across = [](Vec3 p, Vec3 q) { return std::fabs(dot(p, q)) <= 0x1p-46; };
     if (is_across(to_contact[0], to_contact[1]) && is_across(to_contact[0], to_contact[2]) &&
         is_across(to_contact[1], to_contact[2])) {
@@ -338,7 +348,7 @@ Result<std::vector<std::pair<csg::Solid, bool>>> corners_of(const Body& body,
         }
         if (corner.faces.size() < 3 || form.profile != Profile::ball) continue;
         const double d = corner.is_convex ? -form.radius : form.radius;
-        const auto centre = meet(body, corner, d, corner.point);
+        const auto centre = meet(body, corner, d);
         if (!centre) {
             return fail(ErrorCode::out_of_range,
                         "no ball of this radius fits the corner where " +
@@ -353,7 +363,7 @@ Result<std::vector<std::pair<csg::Solid, bool>>> corners_of(const Body& body,
             to_contact[i] =
                 s.normal(*centre) * (corner.is_convex ? corner.sides[i] : -corner.sides[i]);
         }
-        auto solid = ball_corner(to_contact, *centre, form.radius, span);
+        auto solid = ball_corner(to_contact, *centre, corner.point, form.radius, span);
         if (!solid) return Failure(std::move(solid).error());
         const csg::MaterialId material = body.leaves()[body.faces()[corner.faces[0]].leaf].material;
         if (material != csg::kNoMaterial) solid = csg::paint(std::move(*solid), material, span);

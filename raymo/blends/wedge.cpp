@@ -25,9 +25,20 @@ void append_line(curves::Curve& curve, Vec2 a, Vec2 b) {
     if (a != b) curve.spans.push_back(curves::segment(a, b));
 }
 
-/// Along a face's line or circle, moved beyond it.
+/// Along a face's line, circle or run, moved beyond it.
 void append_side(curves::Curve& curve, const SectionCurve& side, Vec2 a, Vec2 b) {
-    if (side.is_line) {
+    if (side.run) {
+        const auto from = side.run->nearest(a);
+        const auto to = side.run->nearest(b);
+        curves::Curve way;
+        side.run->append_moved(from.at, to.at, from.distance, way);
+        // Its ends are a and b but for rounding, or straight beyond the run's ends.
+        if (way.spans.empty()) return append_line(curve, a, b);
+        append_line(curve, a, way.spans.front().point(0));
+        const Vec2 end = way.spans.back().point(3);
+        curve.spans.insert(curve.spans.end(), way.spans.begin(), way.spans.end());
+        append_line(curve, end, b);
+    } else if (side.is_line) {
         append_line(curve, a, b);
     } else if (a != b) {
         append_arc(curve, side.centre, a, b);
@@ -181,9 +192,9 @@ Fitting among_others(const Body& body, const Segment& segment, double radius, do
 std::optional<Wedge> wedge_of(const Segment& segment, double radius) {
     const double s = segment.sign();
     const EdgeCurve& e = segment.edge;
-    const auto centre = meet(e.a, s * radius, e.b, s * radius, e.branch);
+    const auto centre = e.at_distances(s * radius, s * radius);
     const double beyond = -s * kBeyond * radius;
-    const auto corner = meet(e.a, beyond, e.b, beyond, e.branch);
+    const auto corner = e.at_distances(beyond, beyond);
     if (!centre || !corner) return std::nullopt;
     Wedge w;
     w.radius = radius;
@@ -194,6 +205,9 @@ std::optional<Wedge> wedge_of(const Segment& segment, double radius) {
         w.contact[i] = w.centre - side.outward(w.centre) * (s * radius);
         w.behind[i] = w.contact[i] + side.outward(w.contact[i]) * beyond;
         if (e.is_circle && !(w.contact[i].x >= 0.0 && w.behind[i].x >= 0.0)) return std::nullopt;
+        // Past the centre of a bend the normal turns over.
+        if (side.run && !(dot(side.outward(w.centre), side.outward(w.contact[i])) > 0.5))
+            return std::nullopt;
     }
     // A ball beyond the axis would touch its own other side.
     if (e.is_circle && !(w.centre.x >= 0.0 && w.corner.x >= 0.0)) return std::nullopt;
