@@ -121,5 +121,117 @@ TEST_CASE("walls: all edges of a free-form prism, with balls in its corners") {
     CHECK(balls > 20);
 }
 
+/// The same in every frame, with other surfaces' wedges made of other frames' curves.
+TEST_CASE("walls: a pocket, two walls of free form, and in other frames") {
+    const std::vector<curves::Span2> lens{curves::cubic({0, 0}, {3, -3}, {7, -3}, {10, 0}),
+                                          curves::cubic({10, 0}, {7, 3}, {3, 3}, {0, 0})};
+    const Affine maps[] = {{},
+                           reflection({1, 0, 0}),
+                           rotation(unit({1, 2, -1}), 77),
+                           scaling({7, 7, 7}),
+                           translation({1e3, -1e3, 3e2}) * rotation({0, 0, 1}, 90)};
+    for (const Affine& map : maps) {
+        const double scale = norm(map.linear.column(0));
+        const csg::Solid prism = mapped(over("prism", lens, 4), map);
+        Traced lone(blended(prism, Edges::convex, ball(0.5 * scale), 6));
+        const csg::Solid plate = mapped(move(block(20, 20, 4), {-5, -10, -3}), map);
+        const csg::Solid pocket = csg::boolean(csg::Op::difference, {plate, prism});
+        Traced hollow(blended(pocket, Edges::concave, ball(0.5 * scale), 4));
+        // The circle that touches both walls of the tip is on the axis.
+        double lo = 0.0;
+        double hi = 0.5;
+        const auto wall = [](double u) {
+            return Vec2{9 * u + 3 * u * u - 2 * u * u * u, 9 * u * u - 9 * u};
+        };
+        const auto inner = [](double u) {
+            const Vec2 w{9 + 6 * u - 6 * u * u, 18 * u - 9};
+            return Vec2{-w.y, w.x} * (1.0 / norm(w));
+        };
+        for (int i = 0; i < 60; ++i) {
+            const double u = 0.5 * (lo + hi);
+            ((wall(u) + inner(u) * 0.5).y > 0.0 ? lo : hi) = u;
+        }
+        const double centre = (wall(lo) + inner(lo) * 0.5).x;
+        std::size_t judged = 0;
+        for (int i = 0; i < 4000; ++i) {
+            const auto part = [&](double x) { return std::fmod(i * x + 0.5, 1.0); };
+            // About the tip, and between bottom (z = 0) and half way up.
+            const Vec3 p{centre * part(0.8191725134), 0.8 * part(0.6710436067) - 0.4,
+                         0.9 * part(0.5497004779)};
+            // Past the centre towards the tip: between the contacts of the ball.
+            const Vec2 d{p.x - centre, p.y};
+            const Vec2 contact = wall(lo) - Vec2{centre, 0.0};
+            if (!(d.x < 0.0 && std::fabs(d.y) * -contact.x < -contact.y * -d.x)) continue;
+            // Within the lens.
+            double a = 0.0;
+            double b = 0.5;
+            for (int k = 0; k < 60; ++k) {
+                const double u = 0.5 * (a + b);
+                (wall(u).x < p.x ? a : b) = u;
+            }
+            if (!(std::fabs(p.y) < -wall(a).y - 1e-6)) continue;
+            const double from_axis = norm(d);
+            const double up = std::min(p.z - 0.5, 0.0);
+            const double off = std::hypot(from_axis, up) - 0.5;
+            if (std::fabs(off) < 1e-6) continue;
+            ++judged;
+            CAPTURE(p.x);
+            CAPTURE(p.y);
+            CAPTURE(p.z);
+            CHECK((lone.where(map(p)) == solids::Where::in) == (off < 0.0));
+            CHECK((hollow.where(map(p)) == solids::Where::in) == (off > 0.0));
+        }
+        CHECK(judged > 500);
+    }
+}
+
+TEST_CASE("walls: circles of a turned free-form contour") {
+    // The bow is turned about the axis at the distance 5 from its left corner.
+    std::vector<curves::Span2> spans = bowed();
+    for (curves::Span2& span : spans) span = curves::mapped(span, {.x = 5.0});
+    Traced solid(blended(over("revolve", spans, 360), Edges::convex, ball(kRadius), 4));
+    const Corner left = left_corner(kRadius);
+    for (double x = 0.0117; x < 5.0; x += 0.0911) {
+        for (double y = 0.0123; y < 5.0; y += 0.0907) {
+            const Vec2 p{x, y};
+            const bool is_off = is_past(left, p) && norm(p - left.centre) > kRadius;
+            if (std::fabs(Bow::above(p)) < 1e-6) continue;
+            CAPTURE(x);
+            CAPTURE(y);
+            const double angle = 40.0 * x + y;
+            const Vec3 at{(x + 5) * std::cos(angle), (x + 5) * std::sin(angle), y};
+            CHECK((solid.where(at) == solids::Where::in) == (Bow::above(p) > 0.0 && !is_off));
+        }
+    }
+}
+
+TEST_CASE("walls: chamfers and conics between walls of free form") {
+    Form form = ball(kRadius);
+    form.near = Vec3{0, 0, 2};
+    const Corner left = left_corner(kRadius);
+    form.profile = Profile::chamfer;
+    Traced flat(blended(over("prism", bowed(), kHigh), Edges::convex, form, 1));
+    form.profile = Profile::conic;
+    Traced bent(blended(over("prism", bowed(), kHigh), Edges::convex, form, 1));
+    const Vec2 chord = left.on_bow - left.on_side;
+    for (double part = 0.1; part < 0.95; part += 0.1) {
+        const Vec2 p = left.on_side + chord * part;
+        // From the corner's side, across the chord.
+        const Vec2 in = Vec2{chord.y, -chord.x} * (1.0 / norm(chord));
+        const double side = dot(in, left.centre - p) > 0.0 ? 1.0 : -1.0;
+        const Vec3 way{side * in.x, side * in.y, 0};
+        const double depth = flat.first({p.x - way.x, p.y - way.y, 2}, way);
+        CHECK(depth == near(1.0));
+        const double before = bent.first({p.x - way.x, p.y - way.y, 2}, way);
+        CHECK(before < 1.0);
+    }
+    // Tangent to the wall at the contact.
+    for (const double h : {-1e-4, 1e-4}) {
+        const auto& found = bent.along({left.on_bow.x + h, 0, 2}, {0, 1, 0});
+        REQUIRE(!found.empty());
+        CHECK(std::fabs(Bow::above({left.on_bow.x + h, found.front().enter.t})) < 10.0 * h * h);
+    }
+}
+
 }  // namespace
 }  // namespace raymo::blends
