@@ -193,7 +193,14 @@ void add_runs(const curves::Region& region, const std::vector<bool>& is_free, Fa
             i = pieces[i].next;
         } while (!done[i] && is_free[i] && follows(i));
         const bool is_closed = i == first && follows(first);
-        if (left != 0.0) faces.swept(std::move(spans), is_closed, left, "wall", is_turned);
+        if (left == 0.0) return;
+        if (i == first && !is_closed && spans.size() > 1) {
+            // A curve that meets itself in a corner is two faces, which go over into each other somewhere else.
+            const auto half = spans.begin() + static_cast<std::ptrdiff_t>(spans.size() / 2);
+            faces.swept({half, spans.end()}, false, left, "wall", is_turned);
+            spans.erase(half, spans.end());
+        }
+        faces.swept(std::move(spans), is_closed, left, "wall", is_turned);
     };
     for (std::size_t i = 0; i < pieces.size(); ++i) {
         if (is_free[i] && !done[i] && !follows(i)) take(i);

@@ -223,4 +223,48 @@ Run Run::mapped(const Affine2& map) const {
     return {std::move(spans), is_closed_};
 }
 
+curves::Outline Run::left_of(Vec2 p, double reach) const {
+    const Nearest here = nearest(p);
+    const Vec2 way{-here.normal.y, here.normal.x};
+    // To where it has turned too far, or ends; all of it is then a graph above `way`.
+    const auto way_at = [&](double u) {
+        const Vec2 d = jet(u).first;
+        return norm(d) > 0.0 ? d * (1.0 / norm(d)) : way;
+    };
+    const auto limit_of = [&](double sense) {
+        double u = here.at;
+        for (std::size_t i = 0; i < spans_.size() * kSamples; ++i) {
+            double next = u + sense / kSamples;
+            if (!is_closed_) next = std::clamp(next, 0.0, end());
+            if (next == u || !(dot(way_at(next), way) > 0.5)) break;
+            u = next;
+            // Half of a closed run to either side.
+            if (is_closed_ && std::fabs(u - here.at) > 0.5 * end() - 1.0 / kSamples) break;
+        }
+        return u;
+    };
+    const double from = limit_of(-1.0);
+    const double to = limit_of(1.0);
+    const double length = 2.0 * reach;
+    const double top = 4.0 * (reach + size_) + norm(p - here.point);
+    const Vec2 first = jet(from).value - way_at(from) * length;
+    const Vec2 last = jet(to).value + way_at(to) * length;
+    const auto raised = [&](Vec2 q) {
+        return q - here.normal * (top + dot(q - here.point, here.normal));
+    };
+    curves::Curve curve;
+    curve.spans.push_back(curves::segment(first, jet(from).value));
+    if (from < here.at) append_moved(from, here.at, 0.0, curve);
+    if (here.at < to) append_moved(here.at, to, 0.0, curve);
+    Vec2 at = curve.spans.back().point(3);
+    for (const Vec2 next : {last, raised(last), raised(first), first}) {
+        curve.spans.push_back(curves::segment(at, next));
+        at = next;
+    }
+    curve.closed = true;
+    curves::Outline outline;
+    outline.curves.push_back(std::move(curve));
+    return outline;
+}
+
 }  // namespace raymo::blends

@@ -37,6 +37,10 @@ public:
     /// The image under a map that keeps lengths; where that is a reflection, run through from its end, so that its right
     /// side stays the right one.
     [[nodiscard]] Run mapped(const Affine2& map) const;
+    /// What is to the left of the run near the place nearest to `p`, as far as `reach`: of the part about that place which
+    /// turns by less than 60 degrees to either side, and goes on straight there.
+    [[nodiscard]] curves::Outline left_of(Vec2 p, double reach) const;
+
     [[nodiscard]] bool is_closed() const { return is_closed_; }
     /// The radius of a circle that holds it.
     [[nodiscard]] double size() const { return size_; }

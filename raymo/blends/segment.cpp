@@ -411,7 +411,7 @@ private:
     /// The end of a stretch to the last bits, with the faces there as marks. Sectors are asked for beside the curve, where an
     /// oblique face is met earlier or later than on it.
     double mark_end(const SpaceEdge& edge, std::size_t i, std::size_t k, double about) {
-        const double slack = 0x1p-8 * std::min(reach_, edge.step_at(about));
+        const double slack = 0x1p-3 * edge.step_at(about);
         const Vec3 p = edge.point(about);
         double end = about;
         double off = Aabb::kInf;
@@ -435,7 +435,9 @@ private:
                 const double middle = 0.5 * (inner + outer);
                 ((distance(middle) < 0.0) == before ? inner : outer) = middle;
             }
-            if (std::fabs(inner - about) < off) {
+            // A surface goes on beyond the face.
+            if (std::fabs(inner - about) < off &&
+                body_.is_on(body_.faces()[f], edge.point(inner), 0x1p-20 * reach_)) {
                 off = std::fabs(inner - about);
                 end = inner;
             }

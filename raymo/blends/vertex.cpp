@@ -75,8 +75,8 @@ Result<csg::Solid> on_own_side(const Body& body, csg::Solid wedge, const Segment
                                const csg::Solid& more, SourceSpan span) {
     const Surface& surface = body.faces()[face].surface;
     const Vec3 at = segment.ends[end].point;
-    auto inner =
-        surface.is_free() ? whole_leaf(body, face, span) : inner_side(surface, at, reach, span);
+    auto inner = surface.kind == SurfaceKind::turned ? whole_leaf(body, face, span)
+                                                     : inner_side(surface, at, reach, span);
     if (!inner) return inner;
     const Vec3 forth = segment.tangent(segment.ends[end].at) * (end == 0 ? 1.0 : -1.0);
     const bool is_inner = dot(surface.normal(at), forth) < 0.0;
@@ -128,7 +128,16 @@ Result<csg::Solid> inner_side(const Surface& s, Vec3 at, double reach, SourceSpa
         }
         case SurfaceKind::torus:
             return placed(make<solids::Torus>({s.radius, s.tube}, span), s.point);
-        case SurfaceKind::wall:
+        case SurfaceKind::wall: {
+            const Vec3 d = at - s.point;
+            auto outline = std::make_shared<const curves::Outline>(
+                s.run->left_of({dot(d, s.across), dot(d, s.up)}, reach));
+            auto prism = make<solids::Prism>({std::move(outline), 4.0 * reach, true}, span);
+            if (!prism) return prism;
+            const Vec3 up = cross(s.across, s.up);
+            return csg::transform(std::move(*prism),
+                                  frame(s.across, s.up, up, s.point + up * dot(d, up)), span);
+        }
         case SurfaceKind::turned:
             break;
     }

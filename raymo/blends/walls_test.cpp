@@ -14,6 +14,9 @@ csg::Solid over(const char* sweep, std::vector<curves::Span2> spans, double size
                                               : made(sweep, {std::move(shared), size});
 }
 
+/// Depth of a round at the distance u from the edge, at right angles.
+double rise(double r, double u) { return u >= r ? 0.0 : r - std::sqrt(r * r - (r - u) * (r - u)); }
+
 constexpr double kHigh = 5.0;
 constexpr double kRadius = 0.8;
 
@@ -231,6 +234,92 @@ TEST_CASE("walls: chamfers and conics between walls of free form") {
         REQUIRE(!found.empty());
         CHECK(std::fabs(Bow::above({left.on_bow.x + h, found.front().enter.t})) < 10.0 * h * h);
     }
+}
+
+TEST_CASE("walls: a curve that meets itself in a corner") {
+    // The drop (0,0), (12,12), (-12,12), (0,0): x = 36 u (1 - u) (1 - 2 u), y = 36 u (1 - u).
+    const std::vector<curves::Span2> drop{curves::cubic({0, 0}, {12, 12}, {-12, 12}, {0, 0})};
+    const double r = 0.5;
+    Traced solid(blended(over("prism", drop, 5), Edges::convex, ball(r), 5));
+    double lo = 0.0;
+    double hi = 0.2;
+    const auto wall = [](double u) {
+        return Vec2{36 * u * (1 - u) * (1 - 2 * u), 36 * u * (1 - u)};
+    };
+    const auto inner = [](double u) {
+        const Vec2 w{36 * (1 - 6 * u + 6 * u * u), 36 * (1 - 2 * u)};
+        return Vec2{-w.y, w.x} * (1.0 / norm(w));
+    };
+    for (int i = 0; i < 60; ++i) {
+        const double u = 0.5 * (lo + hi);
+        ((wall(u) + inner(u) * r).x < 0.0 ? lo : hi) = u;
+    }
+    // On the axis the tip ends with the ball, in all heights from ball to ball, and on both rims.
+    const double centre = (wall(lo) + inner(lo) * r).y;
+    for (const double z : {0.1, 0.3, 0.6, 2.0, 4.4, 4.7, 4.9}) {
+        CAPTURE(z);
+        const double up = std::max(std::max(r - z, z - (5 - r)), 0.0);
+        CHECK(solid.first({0, -1, z}, {0, 1, 0}) - 1.0 ==
+              doctest::Approx(centre - std::sqrt(r * r - up * up)).epsilon(1e-9));
+        // Where its two halves go over into each other, and beside it.
+        for (const double u : {0.45, 0.499, 0.5, 0.501, 0.57}) {
+            const double in = r - std::sqrt(r * r - up * up);
+            const Vec2 p = wall(u) + inner(u) * in;
+            const Vec2 n = inner(u);
+            CAPTURE(u);
+            CHECK(solid.first({p.x - n.x, p.y - n.y, z}, {n.x, n.y, 0}) ==
+                  doctest::Approx(1.0).epsilon(1e-7));
+        }
+    }
+}
+
+TEST_CASE("walls: rims in a corner that is hollow go on into each other") {
+    const std::vector<curves::Span2> heart{
+        curves::cubic({0, 0}, {2, 3}, {4, 3}, {5, 0}),
+        curves::cubic({5, 0}, {6, 3}, {8, 3}, {10, 0}), curves::segment({10, 0}, {10, -8}),
+        curves::segment({10, -8}, {0, -8}), curves::segment({0, -8}, {0, 0})};
+    const double r = 0.4;
+    std::vector<curves::Span2> spans(heart.rbegin(), heart.rend());
+    for (curves::Span2& span : spans) span = curves::reversed(span);
+    Traced solid(blended(over("prism", spans, 5), Edges::convex, ball(r), 14));
+    // How far inside of a lobe, straight on beyond its ends: the nearest place by trying.
+    const auto from_lobe = [](const curves::Span2& s, Vec2 p) {
+        const auto at = [&](double u) {
+            const double v = 1.0 - u;
+            const double b[] = {v * v * v, 3 * v * v * u, 3 * v * u * u, u * u * u};
+            Vec2 q;
+            for (std::size_t i = 0; i < 4; ++i) q += s.point(i) * b[i];
+            return q;
+        };
+        double best = 0.0;
+        for (int i = 0; i <= 200; ++i) {
+            if (norm(at(i / 200.0) - p) < norm(at(best) - p)) best = i / 200.0;
+        }
+        for (double h = 1.0 / 200; h > 1e-9; h *= 0.5) {
+            for (const double u : {best - h, best + h}) {
+                if (u >= 0.0 && u <= 1.0 && norm(at(u) - p) < norm(at(best) - p)) best = u;
+            }
+        }
+        const double h = 1e-6;
+        const Vec2 w = at(std::min(best + h, 1.0)) - at(std::max(best - h, 0.0));
+        return dot(p - at(best), Vec2{w.y, -w.x} * (1.0 / norm(w)));
+    };
+    std::size_t judged = 0;
+    for (double x = 4.1; x < 5.9; x += 0.0511) {
+        for (double y = -0.9; y < 0.9; y += 0.0513) {
+            const double h = solid.chord({x, y, 0}, {0, 0, 1});
+            const double left = from_lobe(heart[0], {x, y});
+            const double right = from_lobe(heart[1], {x, y});
+            // The rounds of both walls, run on beyond the corner, are mitred: the nearer one is the other's end.
+            const double d = std::max(left, right);
+            if (std::fabs(d) < 1e-3) continue;
+            CAPTURE(x);
+            CAPTURE(y);
+            ++judged;
+            CHECK(h == doctest::Approx(d > 0.0 ? 5.0 - 2.0 * rise(r, d) : 0.0).epsilon(1e-5));
+        }
+    }
+    CHECK(judged > 200);
 }
 
 }  // namespace
