@@ -81,10 +81,10 @@ void shoot_packets(const solids::Freeform& kernel, const std::vector<solids::Ray
         for (std::size_t i = 0; i < 8; ++i) {
             if ((found.left_over >> i & 1U) != 0) {
                 solids::SpanList spans;
-                kernel.spans_in_full(
-                    {block.o[0][i], block.o[1][i], block.o[2][i], block.d[0][i], block.d[1][i],
-                     block.d[2][i], block.e[0][i], block.e[1][i], block.e[2][i], block.dd[i]},
-                    spans);
+                kernel.spans_in_full({block.o[0][i], block.o[1][i], block.o[2][i], block.d[0][i],
+                                      block.d[1][i], block.d[2][i], block.e[0][i], block.e[1][i],
+                                      block.e[2][i], block.dd[i], block.from[i]},
+                                     spans);
                 out.spans += spans.size();
                 for (std::size_t k = 0; k < spans.size(); ++k)
                     out.inside += (spans[k].exit.s - spans[k].enter.s) * unit;
