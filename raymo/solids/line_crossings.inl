@@ -45,18 +45,6 @@ struct LineCrossings {
         ++used;
     }
 
-    /// The same, where of interest are only those that may lie behind `from`.
-    RAYMO_INLINE void add_from(M there, R at, R off, R turn, double right_face, R from) {
-        there = lane_and(there, lane_not(at + off < from));
-        total = lane_select(there, wound(total, turn), total);
-        add(there, at, off, turn, right_face);
-    }
-    /// The winding number at `from`, if all that lies behind it was added and it is 0 where the line ends.
-    [[nodiscard]] RAYMO_INLINE R winding_at(R from) const {
-        const R begun = even_odd ? total : R(0.0) - total;
-        return lane_select(from > R(solids::kFromTheBeginning), begun, R(0.0));
-    }
-
     /// The same, where of interest are only those that may lie in [from, to].
     RAYMO_INLINE void add_within(M there, R at, R off, R turn, double right_face, R from, R to) {
         const M early = lane_and(there, at + off < from);

@@ -373,8 +373,9 @@ private:
                                    lane_and(at.half < R(-0.5), lane_not(upwards)));
         const M right =
             lane_or(lane_and(at.rises, forwards), lane_and(lane_not(at.rises), lane_not(forwards)));
-        found.add_from(lane_and(at.there, certain), s, error, lane_select(right, R(1.0), R(-1.0)),
-                       solids::right_wall(piece.run), from);
+        found.add_within(lane_and(at.there, certain), s, error, lane_select(right, R(1.0), R(-1.0)),
+                         solids::right_wall(piece.run), from,
+                         R(std::numeric_limits<double>::infinity()));
     }
 
     /// Leaves rays that come near the end of a piece, or to where it begins or ends on the axis.
@@ -491,7 +492,10 @@ RAYMO_INLINE int revolve_spans(const curves::Region& region, double angle, Vec3 
     walk_lanes<R>(
         region, plain, [&](const Box2& box) RAYMO_INLINE_BODY { return lines.meets(box); },
         [&](std::uint32_t i, M met) RAYMO_INLINE_BODY { lines.meet(region.pieces()[i], met); });
-    const int count = lines.found.spans(ray, plain, lines.found.winding_at(ray.from), wedge, out);
+    // The line ends outside, so what it meets behind its past tells where it was then.
+    const R winding = lane_select(ray.from > R(solids::kFromTheBeginning),
+                                  lines.found.before - lines.found.total, zero);
+    const int count = lines.found.spans(ray, plain, winding, wedge, out);
     left_over = lane_and(asked, lines.found.rest);
     return count;
 }
