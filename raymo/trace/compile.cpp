@@ -49,10 +49,7 @@ Result<CompiledScene> compile(const scene::Scene& scene, Progress* progress) {
         first += static_cast<std::uint32_t>(solid.leaves.size());
     }
     for (const Look& look : data->looks) {
-        if (look.material != csg::kNoMaterial &&
-            data->materials[look.material].transmission > 0.0) {
-            data->has_transparency = true;
-        }
+        if (data->is_transparent(look.material)) data->has_transparency = true;
     }
     return CompiledScene(std::move(data));
 }

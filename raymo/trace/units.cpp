@@ -302,14 +302,10 @@ private:
         place.push_back(static_cast<std::uint32_t>(planted.size()));
         for (std::size_t i = 0; i < tree.order.size(); ++i) {
             Leaf& leaf = planted[place[i]];
-            leaf.apart =
-                leaf.unit == 1 && is_transparent(leaf) && stands_apart(tree, tree.order[i]);
+            leaf.apart = leaf.unit == 1 && data_.is_transparent(data_.looks[leaf.look].material) &&
+                         stands_apart(tree, tree.order[i]);
         }
         return append(tree, [&](std::uint32_t unit) { return place[unit]; });
-    }
-    [[nodiscard]] bool is_transparent(const Leaf& leaf) const {
-        const csg::MaterialId material = data_.looks[leaf.look].material;
-        return material < data_.materials.size() && data_.materials[material].transmission > 0.0;
     }
     /// Whether the box of a unit meets that of no other.
     [[nodiscard]] bool stands_apart(const Bvh& tree, std::uint32_t unit) const {

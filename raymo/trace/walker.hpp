@@ -301,9 +301,7 @@ struct Walker {
     [[nodiscard]] const Leaf& leaf_of(const Event& e) const {
         return contexts[e.context].solid->leaves[e.leaf];
     }
-    [[nodiscard]] bool is_opaque(csg::MaterialId m) const {
-        return m >= data->materials.size() || !(data->materials[m].transmission > 0.0);
-    }
+    [[nodiscard]] bool is_opaque(csg::MaterialId m) const { return !data->is_transparent(m); }
 
 private:
     struct Change {
