@@ -60,7 +60,8 @@ struct Node {
     NodeKind kind = NodeKind::invalid;
     Operator op = Operator::none;
     Place place = Place::unresolved;
-    bool flag = false;  ///< boolean: value; binding, parameter: captured by a closure
+    /// boolean: value; binding, parameter: captured by a closure; binary, chain, minus, call: `number` is that of a formula
+    bool flag = false;
     std::uint16_t file = 0;
     std::uint16_t height = 1;  ///< of the tree below; at most kMaxHeight
     std::uint32_t begin = 0;

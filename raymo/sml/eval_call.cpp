@@ -178,6 +178,7 @@ bool Evaluator::call_dynamic(const Value& callee, const Node& n, NodeId id, std:
 }
 
 bool Evaluator::eval_call(const Node& n, NodeId id, Value& out) {
+    if (solve(n, out)) return step(id);
     const Node& name = ast_[ast_.child(n, 0)];
     if (n.slot != kNoPlan) {
         const CallPlan& plan = ast_.plans[n.slot];

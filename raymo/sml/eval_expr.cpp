@@ -201,6 +201,7 @@ bool Evaluator::eval_range(const Node& n, NodeId id, double& low, double& high, 
 }
 
 bool Evaluator::eval_binary(const Node& n, NodeId id, Value& out) {
+    if (solve(n, out)) return step(id);
     const NodeId left = ast_.child(n, 0);
     const NodeId right = ast_.child(n, 1);
     Value a;
@@ -239,6 +240,7 @@ bool Evaluator::eval_binary(const Node& n, NodeId id, Value& out) {
 
 // Runs of the same operator on solids become one Boolean of many operands.
 bool Evaluator::eval_chain(const Node& n, NodeId id, Value& out) {
+    if (solve(n, out)) return step(id);
     Value left;
     if (!operand(ast_.child(n, 0), left)) return false;
     std::vector<csg::Solid> run;  // operands of `run_op` that are not combined yet
@@ -292,6 +294,7 @@ bool Evaluator::eval_chain(const Node& n, NodeId id, Value& out) {
 }
 
 bool Evaluator::eval_minus(const Node& n, NodeId id, Value& out) {
+    if (solve(n, out)) return step(id);
     const NodeId operand = ast_.child(n, 0);
     Value value;
     if (!eval(operand, value)) return false;

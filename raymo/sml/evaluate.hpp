@@ -137,6 +137,21 @@ private:
         if (n.kind == NodeKind::chain) return eval_chain(n, id, out);
         return eval(id, out);
     }
+    /// What the node's formula gives. False: it has none, or that gives nothing, and the node has to be walked.
+    bool solve(const Node& n, Value& out) const {
+        if (!n.flag) return false;
+        const Formula& formula = program_.formulas[static_cast<std::size_t>(n.number)];
+        if (depth_ + formula.nesting > host_.limits.call_depth) return false;
+        double frame[kFormulaRoom];
+        for (std::size_t i = 0; i < formula.inputs.size(); ++i) {
+            const Value& input = frame_->slots[formula.inputs[i]];
+            if (!input.is(Tag::number)) return false;
+            frame[i] = input.number();
+        }
+        if (!compute(program_.formulas, formula, globals_, frame)) return false;
+        out.set_number(frame[0]);
+        return true;
+    }
     bool eval_name(const Node& n, NodeId id, Value& out);
     bool eval_list(const Node& n, NodeId id, Value& out);
     bool eval_record(const Node& n, Value& out);

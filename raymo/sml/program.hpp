@@ -8,6 +8,7 @@
 
 #include "raymo/sml/ast.hpp"
 #include "raymo/sml/diagnostics.hpp"
+#include "raymo/sml/formula.hpp"
 #include "raymo/sml/sml.hpp"
 
 namespace raymo::sml {
@@ -40,6 +41,7 @@ struct Program {
     std::vector<std::uint32_t> order;  ///< modules, imported ones first; the main file last
     std::vector<NodeId> globals;       ///< declaration of each global
     std::map<Symbol, NodeId> given;    ///< parameters from outside: expression
+    std::vector<Formula> formulas;     ///< see make_formulas()
 };
 
 /// Reads the main file, all files it imports, and the parameters given from outside. Errors go to the reporter.

@@ -65,6 +65,7 @@ Outcome read(std::string path, std::string text, const Host& host, bool runs) {
     collect_parameters(program, outcome);
     outcome.ok = reporter.errors() == 0;
     if (!outcome.ok || !runs) return outcome;
+    make_formulas(program);
     outcome.ok = Evaluator(program, host, outcome, reporter).run();
     if (!outcome.ok) outcome.scene = {};
     return outcome;
