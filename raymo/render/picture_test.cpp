@@ -89,7 +89,6 @@ public:
         eyes.seed[0] = 1;
         eyes.sample[0] = 0;
         eyes.rays[0].set(0, query);
-        eyes.rays[0].fill_up(1);
         Answers answers;
         shader_.answer(eyes, answers);
         return answers.light[0];

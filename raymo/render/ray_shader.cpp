@@ -39,6 +39,16 @@ void set_lane(double (&colours)[3][8], int lane, Colour c) {
     for (int a = 0; a < 3; ++a) colours[a][lane] = c[a];
 }
 
+/// Gives the lanes named one value.
+template <class T>
+void fill(T (&row)[8], LaneBits lanes, T value) {
+    if (lanes == trace::kAllLanes) {
+        std::fill_n(row, 8, value);
+        return;
+    }
+    for (LaneBits rest = lanes; rest != 0; rest &= rest - 1) row[lowest_lane(rest)] = value;
+}
+
 }  // namespace
 
 Stage::Stage(const trace::CompiledScene& compiled, const Look& look, const Options& options)
@@ -48,6 +58,7 @@ Stage::Stage(const trace::CompiledScene& compiled, const Look& look, const Optio
       max_depth(options.quality == Quality::draft ? 0
                                                   : std::clamp(options.max_depth, 0, kMostDepth)),
       min_weight(std::max(options.min_weight, kLeastWeight)),
+      clear(compiled.has_transparency()),
       soft(std::any_of(lamps.begin(), lamps.end(), [](const Lamp& l) { return l.is_area(); })) {}
 
 RayShader::RayShader(const Stage& stage)
@@ -114,7 +125,6 @@ void RayShader::look_up(LaneBits lanes) {
     const int some = lowest_lane(lanes);
     spots_.same = true;
     spots_.tinted = spots_.transparent = spots_.mirrors = spots_.slow = spots_.dark = 0;
-    const bool clear = stage_->scene->has_transparency();
     LaneBits absorbed = 0;
     std::fill_n(spots_.index, 8, 1.0);
     for (LaneBits rest = lanes; rest != 0;) {
@@ -129,35 +139,30 @@ void RayShader::look_up(LaneBits lanes) {
         }
         alike &= rest;
         rest &= ~alike;
+        if (alike == lanes) alike = trace::kAllLanes;
         const Surface* material = &surfaces_[hits_.material[i]];
         const Surface& before = surfaces_[hits_.medium_before[i]];
         if (before.absorbs) absorbed |= alike;
-        if (clear && material->transparent) {
+        if (material->transparent) {
             const Surface& after = surfaces_[hits_.medium_after[i]];
             // Where something opaque starts right behind a transparent surface, that is what is
             // seen.
             if (hits_.medium_after[i] != Hit::kAir && !after.transparent) {
                 material = &after;
             } else {
-                const double index = after.index / before.index;
-                for (int k = i; k < 8; ++k) {
-                    if ((alike >> k & 1U) != 0) spots_.index[k] = index;
-                }
+                fill(spots_.index, alike, after.index / before.index);
                 spots_.transparent |= alike;
             }
         }
-        for (int k = i; k < 8; ++k) {
-            if ((alike >> k & 1U) != 0) spots_.surface[k] = material;
-        }
+        fill(spots_.surface, alike, material);
         spots_.same = spots_.same && material == spots_.surface[some];
         if (material->tinted) spots_.tinted |= alike;
         if (material->specular.none() && max_norm(material->body) == 0.0) spots_.dark |= alike;
         if (!material->transparent && !material->mirror.none()) spots_.mirrors |= alike;
         if (material->facets.kind != scene::Facets::trowbridge_reitz) spots_.slow |= alike;
     }
-    for (LaneBits rest = ~lanes & trace::kAllLanes; rest != 0; rest &= rest - 1)
-        spots_.surface[lowest_lane(rest)] = spots_.surface[some];
-    for (LaneBits rest = absorbed; rest != 0; rest &= rest - 1) {
+    fill(spots_.surface, ~lanes & trace::kAllLanes, spots_.surface[some]);
+    for (LaneBits rest = absorbed & lanes; rest != 0; rest &= rest - 1) {
         // What the way to the hit has taken.
         const int i = lowest_lane(rest);
         set_lane(spots_.weight, i,
@@ -242,8 +247,7 @@ void RayShader::light_softly(const Lamp& lamp, const RayPacket& rays, int lane, 
 /// Takes from the gains what does not arrive. Ray i of `shadows` starts at hit `hit`, or at hit i if that is -1.
 void RayShader::dim(RayPacket& shadows, int hit) {
     counts_.shadow += static_cast<std::uint64_t>(trace::lane_count(gains_.lanes));
-    if (gains_.lanes != trace::kAllLanes) shadows.fill_up(gains_.lanes);
-    if (stage_->scene->has_transparency()) {
+    if (stage_->clear) {
         filter(shadows, hit);
     } else {
         gains_.lanes &= ~tracer_.occluded(shadows, gains_.lanes);

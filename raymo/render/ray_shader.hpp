@@ -30,7 +30,8 @@ struct Stage {
     Surroundings around;
     int max_depth = 8;
     double min_weight = 1.0 / 512;
-    bool soft = false;  ///< some lamp's light depends on the sample
+    bool clear = false;  ///< some part is transparent
+    bool soft = false;   ///< some lamp's light depends on the sample
 
     Stage(const trace::CompiledScene& scene, const Look& look, const Options& options);
 };

@@ -59,7 +59,7 @@ public:
         for (const auto& values : onward.weight) pack(values);
         pack(hits.point_error);
     }
-    /// Takes up to eight rays off the stack, and returns their lanes. The lanes beyond them are as good as any.
+    /// Takes up to eight rays off the stack, and returns their lanes. The lanes beyond them hold anything.
     LaneBits pop(trace::RayPacket& rays, double (&weight)[3][8], std::array<Path, 8>& paths) {
         const std::size_t count = std::min<std::size_t>(size(), 8);
         const std::size_t first = size() - count;
@@ -80,9 +80,7 @@ public:
         for (std::size_t k = 1; k < count; ++k) {
             if (paths[k].within != rays.within) rays.within = trace::SurfaceId::kNone;
         }
-        const LaneBits lanes = trace::first_lanes(count);
-        rays.fill_up(lanes);
-        return lanes;
+        return trace::first_lanes(count);
     }
 
 private:

@@ -101,20 +101,7 @@ struct alignas(64) RayPacket {
         q.on_surface = (on_surface >> lane & 1U) != 0;
         return q;
     }
-    /// Gives the lanes beside `lanes` (at least one) a copy of one of those, so that they cost nothing.
-    void fill_up(LaneBits lanes) {
-        const int from = lowest_lane(lanes);
-        for (LaneBits rest = ~lanes & kAllLanes; rest != 0; rest &= rest - 1) {
-            const int to = lowest_lane(rest);
-            for (int a = 0; a < 3; ++a) {
-                o[a][to] = o[a][from];
-                d[a][to] = d[a][from];
-            }
-            t_max[to] = t_max[from];
-            start_error[to] = start_error[from];
-        }
-    }
-    /// Lets the rays in `lanes` (at least one) start anew where they met a surface; the others are filled up.
+    /// Lets the rays in `lanes` start anew where they met a surface.
     void go_on_from(const HitPacket& hits, LaneBits lanes) {
         for (LaneBits rest = lanes; rest != 0; rest &= rest - 1) {
             const int i = lowest_lane(rest);
@@ -123,7 +110,6 @@ struct alignas(64) RayPacket {
             t_max[i] -= hits.t[i];
         }
         on_surface |= lanes;
-        if (lanes != kAllLanes) fill_up(lanes);
     }
 };
 

@@ -49,15 +49,20 @@ HWY_INLINE void prepare_packet(Walker<8>& w, const RayPacket& rays) {
     std::uint32_t very_far = 0;
     n.on_surface = false;
     const Lanes scale(base.scale);
+    const int some = __builtin_ctz(w.active);
     for (int first = 0; first < 8; first += kLanes) {
-        const Lanes given[3] = {load(rays.d[0] + first), load(rays.d[1] + first),
-                                load(rays.d[2] + first)};
+        // Lanes that are not in use do as one that is.
+        const Mask used = mask_of(w.active >> first);
+        const auto read = [&](const double(&row)[8]) {
+            return lane_select(used, load(row + first), Lanes(row[some]));
+        };
+        const Lanes given[3] = {read(rays.d[0]), read(rays.d[1]), read(rays.d[2])};
         const Lanes unit = binary_inverses(
             lane_max(lane_abs(given[0]), lane_max(lane_abs(given[1]), lane_abs(given[2]))));
         Lanes far(0.0);
         Lanes place[3], low[3], along[3];
         for (int a = 0; a < 3; ++a) {
-            const SumInLanes sum = two_sum(load(rays.o[a] + first), Lanes(-base.centre[a]));
+            const SumInLanes sum = two_sum(read(rays.o[a]), Lanes(-base.centre[a]));
             place[a] = sum.sum * scale;
             low[a] = sum.rest * scale;
             along[a] = given[a] * unit;
@@ -84,7 +89,7 @@ HWY_INLINE void prepare_packet(Walker<8>& w, const RayPacket& rays) {
         }
         const Lanes t_per_s = unit * Lanes(1.0 / base.scale);  // powers of two
         const Lanes from = Lanes(0.0) - shift;
-        const Lanes t_max = load(rays.t_max + first);
+        const Lanes t_max = read(rays.t_max);
         const bool endless = !lane_any(t_max < Lanes(kInfinity));
         const Lanes to = (endless ? t_max : t_max / t_per_s) - shift;
         for (int a = 0; a < 3; ++a) {
@@ -103,7 +108,7 @@ HWY_INLINE void prepare_packet(Walker<8>& w, const RayPacket& rays) {
         store_floats(from - Lanes(0x1p-20) * lane_abs(from), c.from + first);
         store_floats(to + Lanes(0x1p-20) * lane_abs(to), c.to + first);
         store(error, c.error + first);
-        const Lanes start_error = load(rays.start_error + first) * scale;
+        const Lanes start_error = read(rays.start_error) * scale;
         n.on_surface |= lane_any(start_error > Lanes(0.0));
         store(start_error, c.start_error + first);
         store(Lanes(0.0), c.t0 + first);
@@ -111,7 +116,7 @@ HWY_INLINE void prepare_packet(Walker<8>& w, const RayPacket& rays) {
     }
     for (; very_far != 0; very_far &= very_far - 1) {
         const int i = __builtin_ctz(very_far);
-        const RayQuery q = rays.query(i);
+        const RayQuery q = rays.query((w.active >> i & 1U) != 0 ? i : some);
         const BaseRay ray = base_ray(base, q);
         for (int a = 0; a < 3; ++a) {
             c.o[a][i] = ray.o[a];
