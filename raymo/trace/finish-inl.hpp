@@ -69,9 +69,12 @@ HWY_INLINE void finish_leaf(const Walker<8>& w, double number, std::uint32_t sam
         const Triple<Lanes> d{load(c.d[0] + first), load(c.d[1] + first), load(c.d[2] + first)};
         const Lanes t = load(n.t + first);
         const Lanes face = load(n.face + first);
-        const Local<Lanes> local =
-            localise<Lanes>(frame, leaf, o.x, o.y, o.z, d.x, d.y, d.z, load(c.error + first));
-        Triple<Lanes> normal = place_in_leaf(local, t);
+        Triple<Lanes> normal{Lanes(0.0), Lanes(0.0), Lanes(0.0)};
+        if (!kFlatFaces[frame.type]) {
+            const Local<Lanes> local =
+                localise<Lanes>(frame, leaf, o.x, o.y, o.z, d.x, d.y, d.z, load(c.error + first));
+            normal = place_in_leaf(local, t);
+        }
         if (frame.in_blocks) {
             solids::PlaceBlock places;
             store(normal.x, places.p[0] + first);

@@ -47,6 +47,16 @@ HWY_INLINE void lane_normal(const solids::Halfspace::Kernel&, Lanes, Lanes& x, L
     halfspace_normal(x, y, z);
 }
 
+/// Of kernels by type: normals are told by the face alone, wherever on it.
+inline constexpr auto kFlatFaces = [] {
+    std::array<bool, solids::Inventory::kSize + 1> flat{};
+    std::size_t type = 0;
+    solids::Inventory::for_each([&]<class P>() {
+        flat[type++] = std::is_same_v<P, solids::Block> || std::is_same_v<P, solids::Halfspace>;
+    });
+    return flat;
+}();
+
 /// Puts rays into a block, from number `first` on.
 HWY_INLINE void store(const Ray8& ray, solids::RayBlock& out, int first) {
     store(ray.ox, out.o[0] + first);

@@ -15,6 +15,7 @@
 #include <hwy/foreach_target.h>  // must stand before highway.h
 #include <hwy/highway.h>
 
+#include <array>
 #include <cmath>
 #include <limits>
 #include <type_traits>
