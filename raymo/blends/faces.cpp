@@ -210,10 +210,37 @@ void add_runs(const curves::Region& region, const std::vector<bool>& is_free, Fa
     }
 }
 
+/// Of a conic sweep, whose straight lines sweep planes and whose circles about its axis sweep cones.
+void leaning_walls(const solids::ContourSweep& kernel, Faces& faces) {
+    faces.plane({0, 0, -1}, {0, 0, -1}, "bottom");
+    if (kernel.ratio() > 0.0) faces.plane({0, 0, 1}, {0, 0, 1}, "top");
+    const double ratio = kernel.ratio();
+    for (const curves::Piece& piece : kernel.region().pieces()) {
+        const double left = left_side(kernel.region(), piece);
+        if (left == 0.0) continue;
+        const Shape shape = shape_of(piece);
+        const Vec2 a = piece.point(0);
+        if (shape.kind == Shape::line) {
+            // On the way up a point of the line goes by (ratio - 1) / 2 of itself.
+            const Vec2 n = normal_of(piece, left);
+            faces.plane({a.x, a.y, -1}, {n.x, n.y, 0.5 * (1.0 - ratio) * dot(n, a)}, "wall");
+        } else if (shape.kind == Shape::circle && norm(shape.centre) <= kShape * shape.radius) {
+            if (!faces.is_round()) {
+                faces.unknown(kStretched);
+                continue;
+            }
+            faces.cone({shape.radius, -1.0}, {ratio * shape.radius, 1.0}, left * shape.turn,
+                       "wall");
+        } else {
+            faces.unknown("a conic sweep has other walls than planes and cones about its axis");
+        }
+    }
+}
+
 void walls(const solids::ContourSweep& kernel, Faces& faces) {
+    if (kernel.ratio() != 1.0) return leaning_walls(kernel, faces);
     faces.plane({0, 0, -1}, {0, 0, -1}, "bottom");
     faces.plane({0, 0, 1}, {0, 0, 1}, "top");
-    if (kernel.ratio() != 1.0) return faces.unknown("it is a conic sweep");
     const auto& pieces = kernel.region().pieces();
     std::vector<bool> is_free(pieces.size(), false);
     for (std::size_t i = 0; i < pieces.size(); ++i) {

@@ -5,6 +5,7 @@
 #include <random>
 
 #include "raymo/blends/test_blends.hpp"
+#include "raymo/curves/samples.hpp"
 
 namespace raymo::blends {
 namespace {
@@ -49,8 +50,9 @@ double from_centres(const std::vector<Plane>& planes, double r, Vec3 p) {
     return least;
 }
 
-/// `size`: a cube about the origin that holds it.
-void check(const std::vector<Plane>& planes, double size, double r, std::size_t edges) {
+/// `upright`: the solid within the planes. `size`: a cube about the origin that holds it.
+void check(const csg::Solid& upright, const std::vector<Plane>& planes, double size, double r,
+           std::size_t edges) {
     std::mt19937_64 random(7);
     const auto number = [&](double lo, double hi) {
         return std::uniform_real_distribution<double>(lo, hi)(random);
@@ -61,10 +63,7 @@ void check(const std::vector<Plane>& planes, double size, double r, std::size_t 
             map = translation({number(-9, 9), number(-9, 9), number(-9, 9)}) *
                   rotation(unit({number(-1, 1), number(-1, 1), number(0.1, 1)}), number(0, 360));
         }
-        std::vector<csg::Solid> sides{centred_block(2 * size, 2 * size, 2 * size)};
-        for (const Plane& plane : planes) sides.push_back(halfspace(plane.normal, plane.offset));
-        const csg::Solid solid = mapped(csg::boolean(csg::Op::intersection, sides), map);
-        Traced traced(blended(solid, Edges::convex, ball(r), edges));
+        Traced traced(blended(mapped(upright, map), Edges::convex, ball(r), edges));
         std::size_t judged = 0;
         for (int i = 0; i < 20000; ++i) {
             const Vec3 p{number(-size, size), number(-size, size), number(-size, size)};
@@ -83,6 +82,69 @@ void check(const std::vector<Plane>& planes, double size, double r, std::size_t 
         }
         CHECK(judged > 10000);
     }
+}
+
+void check(const std::vector<Plane>& planes, double size, double r, std::size_t edges) {
+    std::vector<csg::Solid> sides{centred_block(2 * size, 2 * size, 2 * size)};
+    for (const Plane& plane : planes) sides.push_back(halfspace(plane.normal, plane.offset));
+    check(csg::boolean(csg::Op::intersection, sides), planes, size, r, edges);
+}
+
+/// A polygon, counter-clockwise, that shrinks to `ratio` times its size at the height `high`.
+csg::Solid leaning(const std::vector<Vec2>& points, double high, double ratio) {
+    std::vector<curves::Span2> spans;
+    for (std::size_t i = 0; i < points.size(); ++i)
+        spans.push_back(curves::segment(points[i], points[(i + 1) % points.size()]));
+    curves::Outline outline;
+    outline.curves.push_back({std::move(spans), true});
+    return made("conic",
+                {std::make_shared<const curves::Outline>(std::move(outline)), high, ratio, false});
+}
+/// Its planes.
+std::vector<Plane> planes_of(const std::vector<Vec2>& points, double high, double ratio) {
+    std::vector<Plane> planes{{Vec3{0, 0, -1}, 0.0}};
+    if (ratio > 0.0) planes.push_back({Vec3{0, 0, 1}, high});
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const Vec2 a = points[i];
+        const Vec2 b = points[(i + 1) % points.size()];
+        const Vec3 base{a.x, a.y, 0};
+        const Vec3 n =
+            unit(cross(Vec3{b.x, b.y, 0} - base, Vec3{ratio * a.x, ratio * a.y, high} - base));
+        planes.push_back({n, dot(n, base)});
+    }
+    return planes;
+}
+
+TEST_CASE("polyhedra: a conic sweep of a polygon") {
+    const std::vector<Vec2> tapered{{-3, -2}, {3, -2}, {3, 2}, {-3, 2}};
+    check(leaning(tapered, 4, 0.7), planes_of(tapered, 4, 0.7), 5, 0.5, 12);
+    const std::vector<Vec2> pointed{{-3, -2}, {4, -1}, {-1, 4}};
+    check(leaning(pointed, 5, 0.0), planes_of(pointed, 5, 0.0), 6, 0.4, 6);
+    // Its axis needs not go through it.
+    const std::vector<Vec2> aside{{2, 1}, {7, 1}, {7, 4}, {3, 5}};
+    check(leaning(aside, 6, 0.6), planes_of(aside, 6, 0.6), 8, 0.3, 12);
+}
+
+TEST_CASE("polyhedra: a conic sweep of a circle is a cone") {
+    const auto swept = [](Vec2 centre) {
+        curves::Outline outline;
+        outline.curves.push_back(curves::full_circle(centre, 3.0));
+        return made("conic",
+                    {std::make_shared<const curves::Outline>(std::move(outline)), 4.0, 0.5, false});
+    };
+    const Form form = ball(0.6);
+    Traced one(blended(swept({}), Edges::convex, form, 2));
+    Traced other(blended(cone(3.0, 1.5, 4.0), Edges::convex, form, 2));
+    std::mt19937_64 random(11);
+    const auto number = [&] { return std::uniform_real_distribution<double>(-4, 4)(random); };
+    for (int i = 0; i < 2000; ++i) {
+        const Vec3 from{number(), number(), number() + 2.0};
+        const Vec3 way = unit({number(), number(), number()});
+        CHECK(one.chord(from, way) == near(other.chord(from, way)));
+    }
+    const auto refused = blended_edges(swept({1, 0}), Edges::convex, form);
+    REQUIRE(!refused.has_value());
+    CHECK(refused.error().message.find("cones about its axis") != std::string::npos);
 }
 
 TEST_CASE("polyhedra: a tetrahedron") {
