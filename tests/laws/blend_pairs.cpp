@@ -24,25 +24,25 @@ Operand turned(RealSurface::Kind kind, Random& random) {
     RealSurface& s = out.surface;
     s.kind = kind;
     switch (kind) {
-        case RealSurface::plane:
+        case RealSurface::Kind::plane:
             out.model =
                 moved(block({10 * kFar, 10 * kFar, kFar}), Vec3{-5 * kFar, -5 * kFar, -kFar});
             break;
-        case RealSurface::sphere:
+        case RealSurface::Kind::sphere:
             out.model = sphere(size);
             s.radius = r(size);
             break;
-        case RealSurface::cylinder:
+        case RealSurface::Kind::cylinder:
             out.model = cylinder(size, 5 * kFar, true);
             s.radius = r(size);
             break;
-        case RealSurface::cone: {
+        case RealSurface::Kind::cone: {
             const double tangent = random.uniform(0.2, 1.7);
             out.model = cone(0, 2.5 * kFar * tangent, 2.5 * kFar);
             s.half_angle = std::atan2(r(2.5 * kFar * tangent), r(2.5 * kFar));
             break;
         }
-        case RealSurface::torus: {
+        case RealSurface::Kind::torus: {
             const double tube = size * random.uniform(0.2, 0.9);
             out.model = torus(size, tube);
             s.radius = r(size);
@@ -61,7 +61,7 @@ Operand straight(bool is_plane, double length, Random& random) {
     Operand out;
     RealSurface& s = out.surface;
     if (is_plane) {
-        s.kind = RealSurface::plane;
+        s.kind = RealSurface::Kind::plane;
         // The top of a block whose y axis is turned to z.
         const double top = random.uniform(-1, 1);
         const Affine turn = rotation({0, 0, 1}, random.uniform(0, 360)) * rotation({1, 0, 0}, 90);
@@ -74,7 +74,7 @@ Operand straight(bool is_plane, double length, Random& random) {
         const double radius = random.uniform(0.5, 2.0);
         const Vec3 at{random.uniform(-1.5, 1.5), random.uniform(-1.5, 1.5), 0};
         out.model = moved(cylinder(radius, length, true), at);
-        s.kind = RealSurface::cylinder;
+        s.kind = RealSurface::Kind::cylinder;
         s.point = real(at);
         s.radius = r(radius);
     }
@@ -91,18 +91,18 @@ Affine similarity(Random& random, double& scale) {
 }
 
 constexpr std::array<std::array<RealSurface::Kind, 2>, 12> kTurned{{
-    {RealSurface::plane, RealSurface::sphere},
-    {RealSurface::plane, RealSurface::cylinder},
-    {RealSurface::plane, RealSurface::cone},
-    {RealSurface::plane, RealSurface::torus},
-    {RealSurface::sphere, RealSurface::sphere},
-    {RealSurface::sphere, RealSurface::cylinder},
-    {RealSurface::sphere, RealSurface::cone},
-    {RealSurface::sphere, RealSurface::torus},
-    {RealSurface::cylinder, RealSurface::cone},
-    {RealSurface::cylinder, RealSurface::torus},
-    {RealSurface::cone, RealSurface::cone},
-    {RealSurface::cone, RealSurface::torus},
+    {RealSurface::Kind::plane, RealSurface::Kind::sphere},
+    {RealSurface::Kind::plane, RealSurface::Kind::cylinder},
+    {RealSurface::Kind::plane, RealSurface::Kind::cone},
+    {RealSurface::Kind::plane, RealSurface::Kind::torus},
+    {RealSurface::Kind::sphere, RealSurface::Kind::sphere},
+    {RealSurface::Kind::sphere, RealSurface::Kind::cylinder},
+    {RealSurface::Kind::sphere, RealSurface::Kind::cone},
+    {RealSurface::Kind::sphere, RealSurface::Kind::torus},
+    {RealSurface::Kind::cylinder, RealSurface::Kind::cone},
+    {RealSurface::Kind::cylinder, RealSurface::Kind::torus},
+    {RealSurface::Kind::cone, RealSurface::Kind::cone},
+    {RealSurface::Kind::cone, RealSurface::Kind::torus},
 }};
 
 }  // namespace
@@ -119,8 +119,9 @@ std::optional<Pair> any_pair(int kind, Random& random) {
     Pair pair;
     if (kind < 13) {
         pair.is_circle = true;
-        const auto kinds = kind < 12 ? kTurned[static_cast<std::size_t>(kind)]
-                                     : std::array{RealSurface::torus, RealSurface::torus};
+        const auto kinds = kind < 12
+                               ? kTurned[static_cast<std::size_t>(kind)]
+                               : std::array{RealSurface::Kind::torus, RealSurface::Kind::torus};
         pair.a = turned(kinds[0], random);
         pair.b = turned(kinds[1], random);
     } else {

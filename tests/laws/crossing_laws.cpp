@@ -35,18 +35,18 @@ Operand any_operand(Random& random) {
     const double size = random.uniform(0.7, 2.0);
     s.kind = static_cast<RealSurface::Kind>(random.below(5));
     switch (s.kind) {
-        case RealSurface::plane:
+        case RealSurface::Kind::plane:
             out.model = moved(block({4 * kFar, 4 * kFar, kFar}), Vec3{-2 * kFar, -2 * kFar, -kFar});
             break;
-        case RealSurface::sphere:
+        case RealSurface::Kind::sphere:
             out.model = sphere(size);
             s.radius = r(size);
             break;
-        case RealSurface::cylinder:
+        case RealSurface::Kind::cylinder:
             out.model = cylinder(size, 4 * kFar, true);
             s.radius = r(size);
             break;
-        case RealSurface::cone: {
+        case RealSurface::Kind::cone: {
             const double tangent = random.uniform(0.2, 1.2);
             out.model = cone(2 * kFar * tangent, 0, 2 * kFar);
             s.half_angle = std::atan2(r(2 * kFar * tangent), r(2 * kFar));
@@ -57,7 +57,7 @@ Operand any_operand(Random& random) {
             s.point = s.point + real(down);
             break;
         }
-        case RealSurface::torus: {
+        case RealSurface::Kind::torus: {
             const double tube = size * random.uniform(0.25, 0.7);
             out.model = torus(size, tube);
             s.radius = r(size);

@@ -49,16 +49,16 @@ Vec3 rounded(RealVec a) {
 Real RealSurface::distance(RealVec p) const {
     const Polar at = polar(*this, p);
     switch (kind) {
-        case plane:
+        case Kind::plane:
             return side * at.along;
-        case sphere:
+        case Kind::sphere:
             return side * (norm(p - point) - radius);
-        case cylinder:
+        case Kind::cylinder:
             return side * (at.across - radius);
-        case cone:
+        case Kind::cone:
             if (!has_smooth_foot(p)) return side * norm(p - point);
             return side * (at.across * std::cos(half_angle) - at.along * std::sin(half_angle));
-        case torus:
+        case Kind::torus:
             return side * (std::hypot(at.across - radius, at.along) - tube);
     }
     return 0;
@@ -67,16 +67,16 @@ Real RealSurface::distance(RealVec p) const {
 RealVec RealSurface::gradient(RealVec p) const {
     const Polar at = polar(*this, p);
     switch (kind) {
-        case plane:
+        case Kind::plane:
             return axis * side;
-        case sphere:
+        case Kind::sphere:
             return unit(p - point) * side;
-        case cylinder:
+        case Kind::cylinder:
             return at.away * side;
-        case cone:
+        case Kind::cone:
             if (!has_smooth_foot(p)) return unit(p - point) * side;
             return (at.away * std::cos(half_angle) - axis * std::sin(half_angle)) * side;
-        case torus: {
+        case Kind::torus: {
             const Real x = at.across - radius;
             return (at.away * x + axis * at.along) * (side / std::hypot(x, at.along));
         }
@@ -85,7 +85,7 @@ RealVec RealSurface::gradient(RealVec p) const {
 }
 
 bool RealSurface::has_smooth_foot(RealVec p) const {
-    if (kind != cone) return true;
+    if (kind != Kind::cone) return true;
     const Polar at = polar(*this, p);
     return at.along * std::cos(half_angle) + at.across * std::sin(half_angle) > 0;
 }

@@ -12,6 +12,7 @@
 // spine. That a spine belongs to an edge shows as it is followed from r = 0 on.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -36,7 +37,7 @@ struct RealVec {
 
 /// A solid with one surface. The distance from it is exact everywhere, negative within.
 struct RealSurface {
-    enum Kind { plane, sphere, cylinder, cone, torus } kind = plane;
+    enum class Kind : std::uint8_t { plane, sphere, cylinder, cone, torus } kind = Kind::plane;
     RealVec point, axis{0, 0, 1};  ///< the cone's apex; it opens along the axis
     Real radius = 0, tube = 0, half_angle = 0;
     Real side = 1;  ///< -1: the complement
