@@ -90,7 +90,7 @@ void Revolve::Kernel::spans_in_full(const LocalRay<double>& ray, SpanList& out) 
     };
     // What lies between the cuts on the outside, when the turn is more than a half.
     LaneSpans<double, bool, 1> gap;
-    gap.valid[0] = false;
+    gap.valid[0] = gap.degenerate = false;
     const bool convex = angle_ <= 180.0;
     if (!is_whole() && !convex) {
         Window<double> w;
@@ -112,7 +112,7 @@ void Revolve::Kernel::spans_in_full(const LocalRay<double>& ray, SpanList& out) 
                 emit(w);
                 return;
             }
-            if (gap.degenerate && !is_whole() && !convex) out.set_degenerate();
+            if (gap.degenerate) out.set_degenerate();
             if (!gap.valid[0]) {
                 emit(w);
                 return;
