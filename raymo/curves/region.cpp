@@ -158,6 +158,10 @@ Result<RegionPtr> Region::make(const Outline& outline, Vec2 centre, double scale
         return fail(ErrorCode::bad_argument, "the contour encloses nothing");
     region->nodes_.reserve(region->pieces_.size());
     region->add_node(0, static_cast<std::uint32_t>(region->pieces_.size()));
+    if (region->is_flat()) {
+        return fail(ErrorCode::bad_argument, "the contour encloses nothing",
+                    "its points lie in a line, or its curves run back upon themselves");
+    }
     region->number_runs();
     return RegionPtr(std::move(region));
 }

@@ -97,6 +97,8 @@ private:
     [[nodiscard]] static Result<std::shared_ptr<const Region>> make(const Outline& outline,
                                                                     Vec2 centre, double scale,
                                                                     bool beside_axis);
+    /// Whether nothing is enclosed: both sides of all pieces are alike.
+    [[nodiscard]] bool is_flat() const;
     void add_curve(const Curve& curve, Vec2 centre, double scale, bool beside_axis);
     void number_runs();
     /// `borders`: of the stretches, where pieces begin.

@@ -143,6 +143,19 @@ Vec2 Region::normal(Vec2 p, std::uint32_t run, std::uint32_t modulus) const {
 
 // By Green's theorem half the integral of x dy - y dx; for rational pieces it is not a polynomial, so Gauss' rule of eight
 // points on each half of a piece: exact for polynomial cubics (degree 5), and to the last bits on arcs of 90 degrees.
+bool Region::is_flat() const {
+    // Mostly the area tells; of a figure of eight it may be 0.
+    const Vec2 size = box().size();
+    if (std::fabs(signed_area()) > 0x1p-40 * size.x * size.y) return false;
+    return std::all_of(pieces_.begin(), pieces_.end(), [this](const Piece& piece) {
+        const Vec2 at = point_at(piece, 0.5);
+        const Vec2 t = tangent(piece, 0.5);
+        const double long_side = max_norm(piece.point(3) - piece.point(0));
+        const Vec2 step = Vec2{-t.y, t.x} * (0x1p-20 * long_side / norm(t));
+        return where(at + step, {}) == where(at - step, {});
+    });
+}
+
 double Region::signed_area() const {
     static constexpr std::array<double, 4> kPlace{0.1834346424956498, 0.5255324099163290,
                                                   0.7966664774136267, 0.9602898564975363};

@@ -175,5 +175,21 @@ TEST_CASE("what encloses nothing is refused") {
     CHECK_FALSE(Region::make({{infinite}, Fill::even_odd}, {0, 0}, 1.0).has_value());
 }
 
+TEST_CASE("what has no width encloses nothing") {
+    const auto made = [](std::initializer_list<Vec2> points, Fill fill) {
+        return Region::make({{closed_polygon(std::vector<Vec2>(points))}, fill}, {0, 0}, 1.0);
+    };
+    for (const Fill fill : {Fill::even_odd, Fill::non_zero}) {
+        // Points in a line, level and leaning; there and back along two sides of a square.
+        CHECK_FALSE(made({{0, 0}, {1, 0}, {2, 0}}, fill).has_value());
+        CHECK_FALSE(made({{0, 0}, {3, 1}, {1, 1.0 / 3}}, fill).has_value());
+        CHECK_FALSE(made({{0, 0}, {1, 0}, {1, 1}, {1, 0}}, fill).has_value());
+        // A figure of eight has no area by its senses; a sliver little; a triangle with a tail some.
+        CHECK(made({{0, 0}, {2, 2}, {2, 0}, {0, 2}}, fill).has_value());
+        CHECK(made({{0, 0}, {1, 0}, {1, 1e-9}}, fill).has_value());
+        CHECK(made({{0, 0}, {1, 0}, {1, 1}, {1, 9}, {1, 1}}, fill).has_value());
+    }
+}
+
 }  // namespace
 }  // namespace raymo::curves
