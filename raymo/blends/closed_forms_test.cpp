@@ -209,7 +209,7 @@ TEST_CASE("closed forms: the complement of a blended union is the blended inters
         CHECK(joined->edges == met->edges);
         Traced solid(joined->solid);
         Traced rest(met->solid);
-        for (int i = 0; i < 4000; ++i) {
+        for (int i = 1; i <= 4000; ++i) {
             // Points of a lattice that has nothing to do with the axes.
             const auto part = [&](double x) { return 2.0 * std::fmod(i * x + 0.5, 1.0) - 1.0; };
             const Vec3 p{4.0 * part(0.8191725134), 4.0 * part(0.6710436067),
