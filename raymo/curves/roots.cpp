@@ -3,18 +3,21 @@
 // A piece is p on a dyadic interval, in Bernstein form on [0, 1] again. Pieces are taken from left to right. One is done when
 // its coefficients leave no doubt, or when its shape is so simple that one or two places tell all; else it is halved.
 //
-// Parity. A halving takes means of neighbours and drops rows of them. In rounded arithmetic, too, the mean of a and b lies
-// between them, so it has the sign of one of them (0 counting as positive; 0.5 (a + b) of two negative numbers does not
-// underflow to 0), and putting it between them adds no change of sign. Hence
+// Parity. A halving (halving.hpp) takes sums of neighbours, and sums of these, and keeps the first and the last of each row;
+// the powers of two that bring the rows to one scale are exact. In rounded arithmetic, too, the sum of two numbers has the
+// sign of one of them (0 counting as positive; sums do not underflow), and putting it between them adds no change of sign.
+// Hence
 //     changes(left) + changes(right) <= changes(p) <= N                                                    (1)
 // for the coefficients as computed, and both halves share the computed value in the middle bit for bit. Each piece that is
 // done tells of an odd number of crossings if the signs at its ends are different and of an even number if they are equal.
 // So, whatever rounding does to the values in between, crossings alternate, their parity is that of the ends of p, and there
 // are at most N.
 //
-// Certainty. Each mean of a halving has a relative error of u (and 2^-1074), N of them follow each other, and later means do
-// not make errors larger. With `doubt` for the bound of the error of the coefficients of a piece, input noise included,
-//     doubt(half) = doubt(piece) + N u size(piece) + N 2^-1074.                                            (2)
+// Certainty. Sums in place of means make the halves 2^N times as large as p is there, and so are all numbers of a piece. Each
+// sum has a relative error of u, N of them follow each other, and later ones do not make errors larger relative to the scale.
+// With `doubt` for the bound of the error of the coefficients of a piece, input noise included,
+//     doubt(half) = 2^N (doubt(piece) + N u size(piece)).                                                   (2)
+// Where u size underflows the sums are exact.
 // A sign counts as known where the number is larger than the doubt, and at 0 and 1, where it is taken as it stands since
 // the neighbours of p take it as well. Pieces that meet where the sign is not known are told together, from the last known
 // sign before to the first one after: as a crossing if these are different, else as a touch.
@@ -33,7 +36,11 @@
 // most N - 1 zeros; so there are not more than N. `Teller` refuses touches beyond N + 2, so that room for crossings is sure.
 #include "raymo/curves/roots.hpp"
 
+#include <utility>
+
 #include "raymo/curves/crossing.hpp"
+#include "raymo/curves/halving.hpp"
+#include "raymo/curves/root_teller.hpp"
 #include "raymo/math/tolerance.hpp"
 
 namespace raymo::curves {
@@ -43,77 +50,9 @@ constexpr int kMostDepth = 48;
 constexpr int kMostHalvings = 1000;
 /// Pieces of fewer halvings are not searched for a hump: a halving is cheaper.
 constexpr int kHumpDepth = 2;
-/// Larger coefficients are scaled down, so that differences and binomial multiples stay finite.
-constexpr double kLargest = 0x1p1000;
-
-/// A place on [0, 1] and what is known there.
-struct End {
-    double u;
-    double value;
-    bool known;
-
-    [[nodiscard]] bool negative() const { return value < 0.0; }
-};
-
-/// Joins what pieces tell, in ascending order, into roots.
-template <int N>
-class Teller {
-public:
-    explicit Teller(RootList<N>& out) : out_(out) { out_.count = 0; }
-
-    RAYMO_INLINE void crossing(double u, const End& from, const End& to) {
-        put({u, from.u, to.u, true, from.negative()});
-    }
-
-    /// Between `from` and `to`, of which not both need be known, p is near zero in [lo, hi] only; u: the crossing, if any.
-    void blur(const End& from, const End& to, double lo, double hi, double u) {
-        if (!open_) {
-            open_ = true;
-            start_ = from;
-            lo_ = lo;
-            has_u_ = false;
-        }
-        if (from.negative() != to.negative() && !has_u_) {
-            has_u_ = true;
-            u_ = u;
-        }
-        if (!to.known) {
-            hi_ = hi;
-            return;
-        }
-        open_ = false;
-        if (start_.negative() != to.negative()) {
-            crossing(has_u_ ? u_ : 0.5 * (lo_ + hi), start_, to);
-        } else {
-            touch(lo_, hi);
-        }
-    }
-
-private:
-    void put(const Root& root) { out_.root[static_cast<std::size_t>(out_.count++)] = root; }
-
-    void touch(double lo, double hi) {
-        if (out_.count > 0) {
-            Root& last = out_.root[static_cast<std::size_t>(out_.count - 1)];
-            if (!last.crosses && last.hi >= lo) {
-                last.hi = hi;
-                last.u = 0.5 * (last.lo + hi);
-                return;
-            }
-        }
-        if (touches_ == N + 2) return;
-        ++touches_;
-        put({0.5 * (lo + hi), lo, hi, false, false});
-    }
-
-    RootList<N>& out_;
-    int touches_ = 0;
-    bool open_ = false;
-    End start_{};
-    double lo_ = 0.0, hi_ = 0.0;
-    bool has_u_ = false;
-    double u_ = 0.0;
-};
+/// Larger coefficients are scaled down. The others stay finite in kMostDepth halvings, each of which doubles them at most
+/// kMostDegree times, and so do differences and binomial multiples.
+constexpr double kLargest = 0x1p500;
 
 template <int N>
 struct Piece {
@@ -126,17 +65,6 @@ struct Piece {
     [[nodiscard]] double size() const { return std::max(-least, most); }
 };
 
-/// Least and most of c: no value of p lies outside.
-template <int N>
-RAYMO_INLINE void extremes(const Bernstein<N>& c, double& least, double& most) {
-    least = c[0];
-    most = c[0];
-    for (std::size_t i = 1; i <= N; ++i) {
-        least = c[i] < least ? c[i] : least;
-        most = c[i] > most ? c[i] : most;
-    }
-}
-
 /// The place in [x0, x1], with the values y0 and y1 at its ends, where c passes `level`; `otherwise` where it does not.
 template <int N>
 double place_of(Bernstein<N> c, double level, double x0, double x1, double y0, double y1,
@@ -146,15 +74,15 @@ double place_of(Bernstein<N> c, double level, double x0, double x1, double y0, d
     return zero_within<N>(c, {x0, x1, y0 - level, y1 - level, 0.5 * (x0 + x1)});
 }
 
-/// p is monotone on [x0, x1] of the piece, whose ends there are e0 and e1.
+/// p is monotone on [x0, x1] of the piece; its ends there are e0 and e1, with the values y0 and y1.
 template <int N>
-RAYMO_INLINE void tell_monotone(Teller<N>& teller, const Piece<N>& at, double x0, double x1,
-                                const End& e0, const End& e1, double guess) {
-    const bool crosses = e0.negative() != e1.negative();
+RAYMO_INLINE void tell_monotone(Teller<N>& teller, const Piece<N>& at, const Bracket& in,
+                                const End& e0, const End& e1) {
+    const bool crosses = e0.negative != e1.negative;
     if (e0.known && e1.known && !crosses) return;
     double u = 0.5 * (e0.u + e1.u);
     if (crosses) {
-        const double x = zero_within<N>(at.c, {x0, x1, e0.value, e1.value, guess});
+        const double x = zero_within<N>(at.c, in);
         u = std::min(std::max(at.lo.u + (at.hi.u - at.lo.u) * x, e0.u), e1.u);
         if (e0.known && e1.known) {
             teller.crossing(u, e0, e1);
@@ -164,8 +92,9 @@ RAYMO_INLINE void tell_monotone(Teller<N>& teller, const Piece<N>& at, double x0
     double lo = e0.u;
     double hi = e1.u;
     if (e0.known || e1.known) {
-        const double level = (e0.known ? e0 : e1).negative() ? -at.doubt : at.doubt;
-        const double x = place_of<N>(at.c, level, x0, x1, e0.value, e1.value, e0.known ? x0 : x1);
+        const double level = (e0.known ? e0 : e1).negative ? -at.doubt : at.doubt;
+        const double x =
+            place_of<N>(at.c, level, in.lo, in.hi, in.at_lo, in.at_hi, e0.known ? in.lo : in.hi);
         const double place = at.lo.u + (at.hi.u - at.lo.u) * x;
         (e0.known ? lo : hi) = std::min(std::max(place, e0.u), e1.u);
     }
@@ -180,13 +109,14 @@ void tell_humped(Teller<N>& teller, const Piece<N>& at, const Bernstein<N - 1>& 
     const double size = at.size();
     const double m = zero_across<N - 1>(d);
     const double value = value_at(at.c, m);
-    End middle{at.lo.u + (at.hi.u - at.lo.u) * m, value, false};
-    middle.known = std::fabs(value) > at.doubt + (4 * N * N + 2 * N) * kUnitRoundoff * size;
+    const End middle{at.lo.u + (at.hi.u - at.lo.u) * m,
+                     std::fabs(value) > at.doubt + (4 * N * N + 2 * N) * kUnitRoundoff * size,
+                     value < 0.0};
     // About m it is a parabola.
-    const double left = 1.0 - std::sqrt(std::fabs(value / (value - at.lo.value)));
-    const double right = std::sqrt(std::fabs(value / (value - at.hi.value)));
-    tell_monotone<N>(teller, at, 0.0, m, at.lo, middle, m * left);
-    tell_monotone<N>(teller, at, m, 1.0, middle, at.hi, m + (1.0 - m) * right);
+    const double left = 1.0 - std::sqrt(std::fabs(value / (value - at.c[0])));
+    const double right = std::sqrt(std::fabs(value / (value - at.c[N])));
+    tell_monotone<N>(teller, at, {0.0, m, at.c[0], value, m * left}, at.lo, middle);
+    tell_monotone<N>(teller, at, {m, 1.0, value, at.c[N], m + (1.0 - m) * right}, middle, at.hi);
 }
 
 /// Of `count` bits: whether those from some place on are different from those before it.
@@ -195,15 +125,15 @@ constexpr bool changes_once(unsigned bits, unsigned count) {
     return changes != 0 && (changes & (changes - 1U)) == 0;
 }
 
-/// Whether the coefficients, the ends apart, are as a simple crossing has them.
+/// Whether c, which has different known signs at 0 and 1, is as a simple crossing is.
 template <int N>
-RAYMO_INLINE bool is_simple(const Piece<N>& at) {
-    const bool rises = at.lo.negative();
+RAYMO_INLINE bool is_simple(const Bernstein<N>& c, double doubt) {
+    const bool rises = c[0] < 0.0;
     unsigned negative = rises ? 1U : 1U << N;
     unsigned positive = rises ? 1U << N : 1U;
     for (unsigned i = 1; i < N; ++i) {
-        negative |= (at.c[i] < -at.doubt ? 1U : 0U) << i;
-        positive |= (at.c[i] > at.doubt ? 1U : 0U) << i;
+        negative |= (c[i] < -doubt ? 1U : 0U) << i;
+        positive |= (c[i] > doubt ? 1U : 0U) << i;
     }
     return changes_once(negative, N + 1) && changes_once(positive, N + 1);
 }
@@ -211,7 +141,9 @@ RAYMO_INLINE bool is_simple(const Piece<N>& at) {
 /// Whether the piece is done.
 template <int N>
 RAYMO_INLINE bool tell(Teller<N>& teller, const Piece<N>& at) {
-    if (at.lo.known && at.hi.known && at.lo.negative() != at.hi.negative() && is_simple<N>(at)) {
+    // The first piece is known not to be simple.
+    if (at.depth > 0 && at.lo.known && at.hi.known && at.lo.negative != at.hi.negative &&
+        is_simple<N>(at.c, at.doubt)) {
         const double x = zero_across<N>(at.c);
         teller.crossing(at.lo.u + (at.hi.u - at.lo.u) * x, at.lo, at.hi);
         return true;
@@ -232,7 +164,7 @@ RAYMO_INLINE bool tell(Teller<N>& teller, const Piece<N>& at) {
             rises |= (d[i] > 0.0 ? 1U : 0U) << i;
         }
         if (falls == 0 || rises == 0) {
-            tell_monotone<N>(teller, at, 0.0, 1.0, at.lo, at.hi, 0.5);
+            tell_monotone<N>(teller, at, {0.0, 1.0, at.c[0], at.c[N], 0.5}, at.lo, at.hi);
             return true;
         }
         if (changes_once(falls, N)) {
@@ -241,70 +173,82 @@ RAYMO_INLINE bool tell(Teller<N>& teller, const Piece<N>& at) {
         }
         return false;
     } else {
-        tell_monotone<N>(teller, at, 0.0, 1.0, at.lo, at.hi, 0.5);
+        tell_monotone<N>(teller, at, {0.0, 1.0, at.c[0], at.c[N], 0.5}, at.lo, at.hi);
         return true;
     }
 }
 
-/// 0.5 (a + b) for all neighbours, again and again. `c` becomes the right half.
-template <int N>
-RAYMO_INLINE void halve(Bernstein<N>& c, Bernstein<N>& left) {
-    Bernstein<N> b = c;
-    left[0] = b[0];
-    for (std::size_t n = N; n > 0; --n) {
-        for (std::size_t i = 0; i < n; ++i) b[i] = 0.5 * (b[i] + b[i + 1]);
-        left[N + 1 - n] = b[0];
-    }
-    c = b;
-}
-
-constexpr double doubt_of_halves(int degree, double doubt, double size) {
-    return doubt + ((degree + 1) * kUnitRoundoff) * size + degree * 0x1p-1074;
+/// Of the halves of a piece, times 2^N as they are.
+constexpr double doubt_of_halves(std::size_t degree, double doubt, double size) {
+    return power_of_two(degree) *
+           (doubt + (static_cast<double>(degree + 1) * kUnitRoundoff) * size);
 }
 
 /// Whether both halves are clear: what is left to do for most polynomials without roots that are not clear themselves.
 template <int N>
-RAYMO_INLINE bool halves_are_clear(const Bernstein<N>& p, double noise, double least, double most) {
-    Bernstein<N> right = p;
-    Bernstein<N> left;
-    halve<N>(right, left);
-    const double doubt = doubt_of_halves(N, noise, std::max(-least, most));
-    extremes<N>(left, least, most);
-    double least_right, most_right;
-    extremes<N>(right, least_right, most_right);
-    return std::min(least, least_right) > doubt || std::max(most, most_right) < -doubt;
+RAYMO_INLINE bool halves_are_clear(const Bernstein<N>& p, double noise, double size) {
+    Bernstein<N> left, right;
+    Halves<N> halves{left, right, {}, {}};
+    halve<N>(p, halves);
+    const double doubt = doubt_of_halves(N, noise, size);
+    const double least = lane_min(halves.least[0], halves.least[1]);
+    const double most = lane_max(halves.most[0], halves.most[1]);
+    // A number that is none may be lost among the others, but comes to the middle.
+    return ((least > doubt) | (most < -doubt)) & (std::fabs(left[N]) > doubt);
 }
 
+/// Whether p is as a simple crossing is; then it is told.
+template <int N>
+RAYMO_INLINE bool tell_simple(const Bernstein<N>& p, double noise, RootList<N>& out) {
+    if ((p[0] < 0.0) == (p[N] < 0.0) || !is_simple<N>(p, noise)) return false;
+    out.count = 1;
+    out.root[0] = {zero_across<N>(p), 0.0, 1.0, true, p[0] < 0.0};
+    return true;
+}
+
+/// p is neither clear nor simple.
 template <int N>
 void isolate(const Bernstein<N>& p, double noise, double least, double most, RootList<N>& out) {
     Teller<N> teller(out);
-    std::array<Piece<N>, kMostDepth + 1> waiting;
-    Piece<N>* at = waiting.data();
-    at->c = p;
-    at->lo = {0.0, p[0], true};
-    at->hi = {1.0, p[N], true};
-    at->least = least;
-    at->most = most;
-    at->doubt = noise;
-    at->depth = 0;
+    // Pieces that wait, the next one last; beyond it is room for a half.
+    std::array<Piece<N>, kMostDepth + 1> pieces;
+    std::array<Piece<N>*, kMostDepth + 1> waiting;
+    std::size_t made = 1;
+    std::size_t last = 0;
+    waiting[0] = pieces.data();
+    Piece<N>& first = pieces[0];
+    first.c = p;
+    first.lo = {0.0, true, p[0] < 0.0};
+    first.hi = {1.0, true, p[N] < 0.0};
+    first.least = least;
+    first.most = most;
+    first.doubt = noise;
+    first.depth = 0;
     int halvings = 0;
     for (;;) {
-        if (tell<N>(teller, *at)) {
-            if (at-- == waiting.data()) return;
+        Piece<N>& right = *waiting[last];
+        if (tell<N>(teller, right)) {
+            if (last-- == 0) return;
             continue;
         }
         if (++halvings > kMostHalvings) {
-            at->depth = kMostDepth;
+            right.depth = kMostDepth;
             continue;
         }
-        Piece<N>& right = *at;
-        Piece<N>& left = *(at + 1);
-        const double doubt = right.doubt + ((N + 1) * kUnitRoundoff) * right.size() + N * 0x1p-1074;
-        halve<N>(right.c, left.c);
-        extremes<N>(left.c, left.least, left.most);
-        extremes<N>(right.c, right.least, right.most);
+        if (made == last + 1) {
+            waiting[made] = &pieces[made];
+            ++made;
+        }
+        Piece<N>& left = *waiting[last + 1];
+        const double doubt = doubt_of_halves(N, right.doubt, right.size());
+        Halves<N> halves{left.c, right.c, {}, {}};
+        halve<N>(right.c, halves);
+        left.least = halves.least[0];
+        left.most = halves.most[0];
+        right.least = halves.least[1];
+        right.most = halves.most[1];
         const double value = left.c[N];
-        const End middle{0.5 * (right.lo.u + right.hi.u), value, std::fabs(value) > doubt};
+        const End middle{0.5 * (right.lo.u + right.hi.u), std::fabs(value) > doubt, value < 0.0};
         left.lo = right.lo;
         left.hi = middle;
         right.lo = middle;
@@ -315,13 +259,13 @@ void isolate(const Bernstein<N>& p, double noise, double least, double most, Roo
         const bool right_clear = right.least > doubt || right.most < -doubt;
         if (right_clear) {
             if (!left_clear) {
-                right = left;
-                continue;
+                std::swap(waiting[last], waiting[last + 1]);
+            } else if (last-- == 0) {
+                return;
             }
-            if (at-- == waiting.data()) return;
-            continue;
+        } else if (!left_clear) {
+            ++last;
         }
-        if (!left_clear) ++at;
     }
 }
 
@@ -334,15 +278,38 @@ void isolate_unfit(const Bernstein<N>& p, double noise, RootList<N>& out) {
         // Signs are kept where a number vanishes.
         Bernstein<N> small;
         for (std::size_t i = 0; i <= N; ++i) {
-            small[i] = p[i] * 0x1p-30;
+            small[i] = p[i] * 0x1p-530;
             if (small[i] == 0.0 && p[i] < 0.0) small[i] = -0x1p-1074;
         }
+        const double more = noise * 0x1p-530 + 0x1p-1074;
         double least, most;
         extremes<N>(small, least, most);
-        isolate<N>(small, noise * 0x1p-30 + 0x1p-1074, least, most, out);
+        if (!tell_simple<N>(small, more, out)) isolate<N>(small, more, least, most, out);
         return;
     }
-    Teller<N>(out).blur({0.0, p[0], true}, {1.0, p[N], true}, 0.0, 1.0, 0.5);
+    Teller<N>(out).blur({0.0, true, p[0] < 0.0}, {1.0, true, p[N] < 0.0}, 0.0, 1.0, 0.5);
+}
+
+/// The roots of a polynomial that is not clear.
+template <int N>
+[[gnu::noinline]] void find_unclear(const Bernstein<N>& p, double noise, double least, double most,
+                                    RootList<N>& out) {
+    const double size = lane_max(-least, most);
+    if (!(size <= kLargest && noise >= 0.0 && noise <= kLargest)) {
+        isolate_unfit<N>(p, noise, out);
+        return;
+    }
+    if ((p[0] < 0.0) == (p[N] < 0.0) && halves_are_clear<N>(p, noise, size)) {
+        out.count = 0;
+        return;
+    }
+    double sum = 0.0;
+    for (const double x : p) sum += x;
+    if (std::isnan(sum)) {
+        isolate_unfit<N>(p, noise, out);
+        return;
+    }
+    if (!tell_simple<N>(p, noise, out)) isolate<N>(p, noise, least, most, out);
 }
 
 }  // namespace
@@ -356,21 +323,11 @@ template <int N>
 void find_roots(const Bernstein<N>& p, double noise, RootList<N>& out) {
     double least, most;
     extremes<N>(p, least, most);
-    if (least > noise || most < -noise) {
+    if ((least > noise) | (most < -noise)) {
         out.count = 0;
         return;
     }
-    double sum = noise - noise;
-    for (const double x : p) sum += x - x;  // NaN, unless all are finite
-    if (noise >= 0.0 && noise <= kLargest && sum == 0.0 && least >= -kLargest && most <= kLargest) {
-        if ((p[0] < 0.0) == (p[N] < 0.0) && halves_are_clear<N>(p, noise, least, most)) {
-            out.count = 0;
-            return;
-        }
-        isolate<N>(p, noise, least, most, out);
-    } else {
-        isolate_unfit<N>(p, noise, out);
-    }
+    find_unclear<N>(p, noise, least, most, out);
 }
 
 #define RAYMO_DEGREE(N)                                  \
