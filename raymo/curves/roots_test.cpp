@@ -80,6 +80,95 @@ TEST_CASE("the number of crossings has the parity that the signs at the ends ask
     }
 }
 
+/// c, with |c[i]| in `sizes`, at u, in longer numbers.
+template <int N>
+long double long_value(const Bernstein<N>& c, double u, long double& sizes, long double& slope) {
+    std::array<long double, N + 1> b, size;
+    for (std::size_t i = 0; i <= N; ++i) {
+        b[i] = c[i];
+        size[i] = std::fabs(c[i]);
+    }
+    const long double v = 1.0L - u;
+    for (std::size_t n = N; n > 0; --n) {
+        if (n == 1) slope = N * (b[1] - b[0]);
+        for (std::size_t i = 0; i < n; ++i) {
+            b[i] = v * b[i] + u * b[i + 1];
+            size[i] = v * size[i] + u * size[i + 1];
+        }
+    }
+    sizes = size[0];
+    return b[0];
+}
+
+template <int N>
+void check_places() {
+    std::mt19937_64 random(23);
+    std::uniform_real_distribution<double> any(0.0, 1.0);
+    for (int k = 0; k < 20000; ++k) {
+        Bernstein<N> p;
+        const std::size_t change = 1 + random() % N;
+        const bool rises = random() % 2 == 0;
+        for (std::size_t i = 0; i <= N; ++i) {
+            p[i] =
+                any(random) * std::ldexp(1.0, -static_cast<int>(random() % (k % 2 == 0 ? 2 : 40)));
+            if ((i < change) == rises) p[i] = -p[i];
+        }
+        const double u = crossing_of<N>(p);
+        REQUIRE(u >= 0.0);
+        REQUIRE(u <= 1.0);
+        long double sizes, slope;
+        const long double value = long_value<N>(p, u, sizes, slope);
+        // 2 N roundings of each term, and two of u.
+        REQUIRE(std::fabs(value) <=
+                (2 * N * sizes + 2.0L * u * std::fabs(slope)) * static_cast<long double>(0x1p-53));
+    }
+}
+
+TEST_CASE("the place of a crossing is right to the last bit that its values allow") {
+    check_places<2>();
+    check_places<3>();
+    check_places<4>();
+    check_places<5>();
+    check_places<6>();
+    check_places<7>();
+    check_places<8>();
+    check_places<9>();
+    check_places<10>();
+}
+
+TEST_CASE("powers of two change nothing") {
+    std::mt19937_64 random(17);
+    std::uniform_real_distribution<double> any(-1.0, 1.0);
+    int touches = 0;
+    for (int k = 0; k < 3000; ++k) {
+        Bernstein<10> p;
+        for (double& c : p) c = any(random);
+        if (k % 3 == 0)
+            p = product(with_roots<2>({0.3, 0.3}),
+                        Bernstein<8>{p[0], p[1], p[2], p[3], p[4], p[5], p[6], p[7], p[8]});
+        const double noise = k % 2 == 0 ? 0.0 : 1e-9;
+        RootList<10> list;
+        find_roots<10>(p, noise, list);
+        for (const int power : {-800, -480, 480, 505, 900}) {
+            Bernstein<10> q;
+            for (std::size_t i = 0; i <= 10; ++i) q[i] = std::ldexp(p[i], power);
+            RootList<10> other;
+            find_roots<10>(q, std::ldexp(noise, power), other);
+            REQUIRE(list.count == other.count);
+            for (int i = 0; i < list.count; ++i) {
+                const Root& a = list.root[static_cast<std::size_t>(i)];
+                const Root& b = other.root[static_cast<std::size_t>(i)];
+                REQUIRE(a.u == b.u);
+                REQUIRE(a.lo == b.lo);
+                REQUIRE(a.hi == b.hi);
+                REQUIRE(a.crosses == b.crosses);
+                touches += a.crosses ? 0 : 1;
+            }
+        }
+    }
+    CHECK(touches > 100);
+}
+
 // Four numbers with the operations of math/lanes.hpp, in place of a register.
 struct Mask4 {
     std::array<bool, 4> m;
