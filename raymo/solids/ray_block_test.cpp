@@ -2,6 +2,9 @@
 
 #include <doctest/doctest.h>
 
+#include <cmath>
+#include <numbers>
+
 #include "raymo/solids/conformance.hpp"
 #include "raymo/solids/inventory.hpp"
 
@@ -156,6 +159,36 @@ TEST_CASE(
             CHECK(all.left_over < all.rays);
         }
     });
+}
+
+TEST_CASE("sweep: of a ring of many short cubics hardly a ray is left over") {
+    // A ball nearly as large as the ring that it runs along: the inner side bends sharply.
+    curves::Path path;
+    path.closed = true;
+    constexpr int kSpans = 60;
+    const auto at = [](double angle) {
+        return Vec3{2.0 * std::cos(angle), 2.0 * std::sin(angle), 0.0};
+    };
+    const double turn = 2.0 * std::numbers::pi / kSpans;
+    const double handle = 4.0 / 3.0 * std::tan(0.25 * turn);
+    for (int i = 0; i < kSpans; ++i) {
+        const Vec3 from = at(i * turn);
+        const Vec3 to = at((i + 1) % kSpans * turn);
+        const Vec3 p = from + Vec3{-from.y, from.x, 0.0} * handle;
+        const Vec3 q = to - Vec3{-to.y, to.x, 0.0} * handle;
+        path.spans.push_back({{from.x, p.x, q.x, to.x},
+                              {from.y, p.y, q.y, to.y},
+                              {0, 0, 0, 0},
+                              {1.6, 1.6, 1.6, 1.6}});
+    }
+    const auto placed = Sweep::prepare(
+        std::vector<Argument>{std::make_shared<const curves::Path>(path), std::size_t{0}});
+    REQUIRE(placed.has_value());
+    Random random(7);
+    Count count;
+    for (int i = 0; i < 2000; ++i) compare(placed->kernel, random, count);
+    CHECK(count.ends > 2000);
+    CHECK(count.left_over * 100 < count.ends);
 }
 
 TEST_CASE("revolve: errors hold where one of Newton's steps lands near a zero by luck") {

@@ -20,12 +20,14 @@
 //   single    disc > 0 or D1 has one sign, and that polynomial has at most one root, by the signs of its coefficients.
 //             Then z' at the ends tells whether there is a maximum between them, unless it may be 0 there.
 //   covered   All values lie where the line is inside for certain, in one interval with the chord of an end.
+//   one way   z' has one sign over all of it, by bounds of tau', D1 and h: the maximum is at an end. (In kernel.inl only.)
 //   flat      The larger of both ends comes as near to +-tau + H as it is known.
 // Parts are dropped when all coefficients of disc are below -E (see below), or when all their chords lie inside for certain.
 // Nearly all parts of transversal lines are concave, at once or after a halving or two; the polynomial is formed for few.
 // The maximum is found by steps to that of a model with linear tau and quadratic disc, a line that meets a cylinder or cone,
 //     u + D1 / 2c + m sqrt((disc + D1^2 / 4c) / (c (c + m^2))),  m = +-tau',  c = -(D2 +- 2 tau'' h) / 2,
-// exact for linear pieces with one step; that c makes it Newton's near the maximum. Since z is concave, its maximum is above
+// exact for linear pieces with one step; that c makes it Newton's near the maximum. Where c is not positive, as next to the
+// inner side of a bend, that model has no maximum, and Newton's step for z' = 0 is made if z is concave. Since z is concave, its maximum is above
 // the value at any u by at most z'^2 / 2B, the `loss` (z'^2 / |z''|, twice what Newton's step gains, where there is no B);
 // steps are made until it is far below the error, and it is added to that.
 //
@@ -344,6 +346,8 @@ private:
                 const double half = 0.5 * at.disc1 / c;
                 next = at.u + half +
                        m * std::sqrt((at.disc + 0.5 * half * at.disc1) / (c * (c + m * m)));
+            } else if (bend > 0.0 && z2 < 0.0) {
+                next = at.u - slope / z2;
             }
             if (!(next < hi)) next = hi_seen ? 0.5 * (at.u + hi) : hi;
             if (!(next > lo)) next = lo_seen ? 0.5 * (at.u + lo) : lo;

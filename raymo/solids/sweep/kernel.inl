@@ -190,13 +190,25 @@ RAYMO_INLINE LaneSphere<R> choose_sphere(M mask, const LaneSphere<R>& a, const L
             lane_select(mask, a.disc2, b.disc2), lane_select(mask, a.radius, b.radius)};
 }
 
+/// Whether a function rises, or falls, all over a part: for all x from -E to E,
+///     z' = +-tau' + D1 / (2 sqrt(disc + x))
+/// has that sign by the bounds of its terms. Then the largest z is at an end of the part, whatever the error is, and T(E) there
+/// is at most T(0) + E / 2h. Most parts that a line meets are of that kind: only one or two hold an end of its chord.
+template <class M>
+struct LaneSlopes {
+    M rises, falls;
+    RAYMO_INLINE M one_way() const { return lane_or(rises, falls); }
+};
+
 /// As PartBounds.
 template <class R, class M>
 struct LaneBounds {
     R disc_least, disc_most, d1_least, d2_most;
     R tau_least, tau_most, tau2_least, tau2_most;
     R slack, rounding, wide;
+    R disc_first, disc_last;  ///< at the ends
     M d1_rises;
+    LaneSlopes<M> first, last;  ///< of -tau + h, and of tau + h
 };
 
 template <class R>
@@ -249,11 +261,19 @@ struct SweepLines {
             there =
                 lane_and(there, lane_not(found.covers(b.tau_least - b.wide, b.tau_most + b.wide)));
             const M positive = b.disc_least > R(4.0) * (b.slack + b.rounding);
+            const M at_ends =
+                lane_and(lane_and(there, positive), lane_and(b.first.one_way(), b.last.one_way()));
+            if (lane_any(at_ends)) {
+                join_ends(piece, part.c, part.u0, part.u1, b, at_ends);
+                there = lane_and(there, lane_not(at_ends));
+                if (!lane_any(there)) continue;
+            }
             const M single = lane_or(positive, lane_or(b.d2_most<R(0.0), b.d1_least> R(0.0)));
             const R bend_first = bend_of(b, R(0.0) - b.tau2_least);
             const R bend_last = bend_of(b, b.tau2_most);
             const M plain = lane_and(lane_and(there, single),
-                                     lane_and(bend_first > R(0.0), bend_last > R(0.0)));
+                                     lane_and(lane_or(b.first.one_way(), bend_first > R(0.0)),
+                                              lane_or(b.last.one_way(), bend_last > R(0.0))));
             if (lane_any(plain))
                 join(piece, whole, part.u0, part.u1, b, bend_first, bend_last, plain);
             there = lane_and(there, lane_not(plain));
@@ -325,6 +345,8 @@ private:
         b.slack = slack_of(radius, error);
         R low(0.0), high(0.0), bend(0.0), last(0.0);
         b.disc_least = b.disc_most = disc[0];
+        b.disc_first = disc[0];
+        b.disc_last = disc[6];
         for (int i = 0; i < 6; ++i) {
             b.disc_least = lane_min(b.disc_least, disc[i + 1]);
             b.disc_most = lane_max(b.disc_most, disc[i + 1]);
@@ -346,6 +368,16 @@ private:
         const R t2 = c.tau[3] - c.tau[2];
         b.tau2_most = R(6.0 * scale * scale) * lane_max(t1 - t0, t2 - t1);
         b.tau2_least = R(6.0 * scale * scale) * lane_min(t1 - t0, t2 - t1);
+        // A third of the derivative of +-tau + h by the part's own parameter is +-t + d / h.
+        const R t_least = lane_min(t0, lane_min(t1, t2)) - R(2.0 * kSweepOwnError);
+        const R t_most = lane_max(t0, lane_max(t1, t2)) + R(2.0 * kSweepOwnError);
+        const R d_least = low - two * b.rounding;
+        const R d_most = high + two * b.rounding;
+        const R narrow = lane_sqrt(lane_max(b.disc_least - (b.slack + b.rounding), zero));
+        const R h_least = d_least / lane_select(d_least >= zero, b.wide, narrow);
+        const R h_most = d_most / lane_select(d_most <= zero, b.wide, narrow);
+        b.first = {h_least > t_most, h_most < t_least};
+        b.last = {t_least + h_least > zero, t_most + h_most < zero};
         return b;
     }
 
@@ -357,6 +389,28 @@ private:
         h2 = lane_select(b.d2_most > zero, lane_min(h2, R(1.5) * m2 / b.d2_most), h2);
         const R bend = (m2 - R(2.0) * h2 * b.d2_most) / (R(4.0) * h2 * lane_sqrt(h2)) - turn;
         return lane_select(lane_and(h2 > zero, bend > R(0.125) * lane_abs(turn)), bend, zero);
+    }
+
+    /// The chord of a part in which -tau + h and tau + h rise or fall all the way: it ends where those of the part's ends do.
+    RAYMO_INLINE void join_ends(const solids::SweptPiece& piece, const LaneCubics<R>& c, double u0,
+                                double u1, const LaneBounds<R, M>& b, M there) {
+        const auto end = [&](M at_last, double sign) RAYMO_INLINE_BODY {
+            const R h = lane_sqrt(lane_select(at_last, b.disc_last, b.disc_first));
+            const R radius = lane_abs(lane_select(at_last, c.radius[3], c.radius[0]));
+            const R t = lane_select(at_last, c.tau[3], c.tau[0]) + R(sign) * h;
+            const R e = error * (R(2.5) * radius + error);
+            const R inner = e / h;
+            const R outer = lane_min(R(0.5) * inner, lane_sqrt(e));
+            R face(0.0);
+            if (piece.begins && u0 == 0.0) face = lane_select(at_last, face, R(1.0));
+            if (piece.ends && u1 == 1.0) face = lane_select(at_last, R(2.0), face);
+            return LaneChordEnd<R>{t, t + R(sign) * outer, t - R(sign) * inner, face};
+        };
+        const LaneChordEnd<R> first = end(b.first.rises, -1.0);
+        const LaneChordEnd<R> last = end(b.last.rises, 1.0);
+        const M certain = first.inner <= last.inner;
+        leave(lane_and(there, lane_not(certain)));
+        found.add(lane_and(there, certain), first, last);
     }
 
     /// The chord of a part that has one, of which both ends are single maxima.
@@ -395,28 +449,43 @@ private:
         const M begins = lane_and(there, lane_not(begun));
         LaneChordEnd<R> first{early, early, early, zero};
         if (lane_any(begins)) {
-            first = choose_end(begun, first,
-                               extremum(piece, whole, u0, u1, bend_first, peak, -1.0, begins));
+            first =
+                choose_end(begun, first,
+                           end_of(piece, whole, u0, u1, b.first, bend_first, peak, -1.0, begins));
         }
-        const LaneChordEnd<R> last = extremum(piece, whole, u0, u1, bend_last, peak, 1.0, there);
+        const LaneChordEnd<R> last =
+            end_of(piece, whole, u0, u1, b.last, bend_last, peak, 1.0, there);
         const M certain = first.inner <= last.inner;
         leave(lane_and(there, lane_not(certain)));
         found.add(lane_and(there, certain), first, last);
     }
 
-    /// The largest sign tau + h.
-    RAYMO_INLINE LaneChordEnd<R> extremum(const solids::SweptPiece& piece,
-                                          const LaneCubics<R>& whole, double u0, double u1, R bend,
-                                          const LaneSphere<R>& peak, double sign, M there) {
+    /// The largest sign tau + h: at an end of the part where it rises or falls all over it.
+    RAYMO_INLINE LaneChordEnd<R> end_of(const solids::SweptPiece& piece, const LaneCubics<R>& whole,
+                                        double u0, double u1, const LaneSlopes<M>& slopes, R bend,
+                                        const LaneSphere<R>& peak, double sign, M there) {
+        const M at_end = lane_and(there, slopes.one_way());
+        const M between = lane_and(there, lane_not(at_end));
+        LaneSphere<R> best = peak;
+        R loss(0.0);
+        if (lane_any(between)) climb(whole, u0, u1, bend, peak, sign, between, best, loss);
+        if (lane_any(at_end)) {
+            best = choose_sphere(at_end, sphere_at(whole, lane_select(slopes.rises, R(u1), R(u0))),
+                                 best);
+        }
+        return told(piece, u0, u1, peak, best, loss, sign);
+    }
+
+    /// The place of the largest sign tau + h between, where it bends down all over the part, and by what it may be larger there.
+    RAYMO_INLINE void climb(const LaneCubics<R>& whole, double u0, double u1, R bend,
+                            const LaneSphere<R>& peak, double sign, M there, LaneSphere<R>& good,
+                            R& loss) {
         const R zero(0.0);
-        const R one(1.0);
         const R half(0.5);
         const R s(sign);
         R lo(u0);
         R hi(u1);
         LaneSphere<R> at = peak;
-        LaneSphere<R> good = peak;
-        R loss = zero;
         M active = there;
         const M never = lane_and(there, lane_not(there));
         M lo_seen = never;
@@ -459,7 +528,13 @@ private:
             const R step =
                 m * lane_sqrt(
                         lane_max((at.disc + half * halfway * at.disc1) / (c * (c + m * m)), zero));
-            R next = lane_select(c > zero, at.u + halfway + step, lane_select(rises, hi, lo));
+            // Where that model has no maximum: Newton's step for the slope.
+            const R fall =
+                (at.disc1 * at.disc1 - R(2.0) * at.disc * at.disc2) / (R(4.0) * at.disc * h) -
+                s * at.tau2;
+            const R newton =
+                lane_select(fall > zero, at.u + slope / fall, lane_select(rises, hi, lo));
+            R next = lane_select(c > zero, at.u + halfway + step, newton);
             next = lane_select(next < hi, next, lane_select(hi_seen, half * (at.u + hi), hi));
             next = lane_select(next > lo, next, lane_select(lo_seen, half * (at.u + lo), lo));
             next = lane_select(beyond, half * (at.u + good.u), next);
@@ -467,6 +542,15 @@ private:
             active = lane_and(active, lane_not(lane_and(here, next == at.u)));
             at = sphere_at(whole, next);
         }
+    }
+
+    /// The end of a chord at a sphere.
+    RAYMO_INLINE LaneChordEnd<R> told(const solids::SweptPiece& piece, double u0, double u1,
+                                      const LaneSphere<R>& peak, const LaneSphere<R>& good, R loss,
+                                      double sign) const {
+        const R s(sign);
+        const R zero(0.0);
+        const R one(1.0);
         const R h = lane_sqrt(lane_max(good.disc, R(0x1p-1000)));
         const R t = s * good.tau + h;
         const R e = error * (R(2.5) * good.radius + error);

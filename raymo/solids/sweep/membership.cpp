@@ -136,10 +136,16 @@ void look_nearer(const Cubics& q, double u, Nearest& best) {
     best = {best.least, distance, outward, {j.first[0], j.first[1], j.first[2]}};
 }
 
-void find_nearest(const Cubics& piece, Vec3 p, Nearest& best) {
-    const Cubics q = seen_from(p, piece);
-    look_nearer(q, 0.0, best);
-    look_nearer(q, 1.0, best);
+/// The balls at both ends of a piece.
+void look_at_ends(const Cubics& q, Nearest& best) {
+    for (const std::size_t i : {std::size_t{0}, std::size_t{3}}) {
+        const double d = distance(q, i) - std::fabs(q.c[i][3]);
+        if (d < best.distance && d >= best.least) look_nearer(q, i == 0 ? 0.0 : 1.0, best);
+    }
+}
+
+/// The balls between.
+void look_between(const Cubics& q, Nearest& best) {
     const std::array<double, 7> field = field_of(q);
     // |p - r| - a >= F / (2 a + |p - r| - a): where that is no less than what is known already, nothing is nearer.
     double radius = 0.0;
@@ -193,18 +199,28 @@ Vec3 Sweep::Kernel::normal(Vec3 p, std::uint16_t face) const {
     } else if (face == 2) {
         look_nearer(seen_from(p, spheres.pieces.back().cubics), 1.0, best);
     } else {
-        pieces_at(spheres, p, kBoxMargin, [&](const SweptPiece& piece) {
+        // The balls at the ends of pieces are looked at first: what they tell spares looking between most of them.
+        const auto look = [&](const SweptPiece& piece, const auto& at) {
             best.least = -std::numeric_limits<double>::infinity();
             for (std::size_t k = 0; k < 2; ++k) {
                 if ((piece.cut >> k & 1U) == 0) continue;
                 const double height = dot(spheres.caps[k].n, p) - spheres.caps[k].c;
                 best.least = std::max(best.least, -std::fabs(height) - kCapEdge);
             }
-            find_nearest(piece.cubics, p, best);
+            at(seen_from(p, piece.cubics), best);
             return true;
-        });
+        };
+        pieces_at(spheres, p, kBoxMargin,
+                  [&](const SweptPiece& piece) { return look(piece, look_at_ends); });
+        pieces_at(spheres, p, kBoxMargin,
+                  [&](const SweptPiece& piece) { return look(piece, look_between); });
         if (std::isinf(best.distance)) {
-            for (const SweptPiece& piece : spheres.pieces) find_nearest(piece.cubics, p, best);
+            best.least = -std::numeric_limits<double>::infinity();
+            for (const SweptPiece& piece : spheres.pieces) {
+                const Cubics q = seen_from(p, piece.cubics);
+                look_at_ends(q, best);
+                look_between(q, best);
+            }
         }
     }
     if (max_norm(best.outward) > 0.0) return best.outward;
