@@ -16,7 +16,7 @@ HWY_INLINE std::uint32_t meet_leaf(Walker<8>& w, std::uint32_t index, int first,
                                    std::uint32_t lanes, NearestInLanes& nearest) {
     std::uint32_t inside = 0;
     const bool passable = w.mode == Mode::through && is_passable(w, index);
-    ask_leaf(w, index, first, lanes,
+    ask_leaf(w, index, first, lanes, nearest.start,
              [&](const auto& found, Mask trouble, Lanes trouble_lo) RAYMO_INLINE_BODY {
                  const Mask here = mask_of(lanes);
                  nearest.changed = true;
@@ -162,7 +162,7 @@ HWY_INLINE std::uint32_t search_cutters(Walker<8>& w, const Beam& beam, std::uin
             Mask trouble;
             Lanes trouble_lo;
             const int count =
-                spans_of(w, leaf, first, box.lanes >> first, spans, trouble, trouble_lo);
+                spans_of(w, leaf, first, box.lanes >> first, start, spans, trouble, trouble_lo);
             nearest.doubt(lane_and(near, trouble), trouble_lo);
             for (int i = 0; i < count; ++i) {
                 SpanInLanes& span = spans[i];
@@ -290,9 +290,10 @@ HWY_INLINE std::uint32_t meet_product(Walker<8>& w, const Beam& beam, std::uint3
                                       int first, std::uint32_t lanes, NearestInLanes& nearest) {
     const CompiledSolid& solid = *w.contexts[0].solid;
     const Lanes start = nearest.start;
-    const Mask here = mask_of(lanes);
+    Mask here = mask_of(lanes);
     nearest.changed = true;
     MembersInLanes members;
+    Lanes past = start;  // where the core is entered, at the earliest
     for (int i = 0; i < size; ++i) {
         const std::uint32_t number = index + static_cast<std::uint32_t>(i);
         const bool cuts = w.data->looks[solid.leaves[number].look].cuts;
@@ -301,21 +302,28 @@ HWY_INLINE std::uint32_t meet_product(Walker<8>& w, const Beam& beam, std::uint3
         leaf.number = Lanes(static_cast<double>(number));
         Mask trouble;
         Lanes trouble_lo;
-        leaf.count = spans_of(w, number, first, lanes, leaf.spans, trouble, trouble_lo);
+        leaf.count = spans_of(w, number, first, lanes, past, leaf.spans, trouble, trouble_lo);
         nearest.doubt(lane_and(here, trouble), trouble_lo);
         Mask met = mask_of(0);
+        Lanes entered(kInfinity);
         for (int k = 0; k < leaf.count; ++k) {
             const SpanInLanes& span = leaf.spans[k];
             const Mask about = lane_and(lane_and(here, span.valid), span.exit.hi >= start);
             nearest.pass(lane_and(about, span.enter.near <= start), span.enter.hi);
             nearest.pass(lane_and(about, span.exit.near <= start), span.exit.hi);
             met = lane_or(met, about);
+            entered = lane_select(about, lane_min(entered, span.enter.lo), entered);
         }
         if (cuts) {
             members.taken_spans += leaf.count;
-        } else if (!lane_any(met)) {
-            return 0;
+            continue;
         }
+        // Of rays that miss the core, or have found something before it, nothing more needs to be known.
+        past = lane_max(past, entered);
+        here = lane_and(lane_and(here, met),
+                        past <= lane_min(nearest.t + nearest.error, nearest.limit));
+        lanes = bits(here);
+        if (lanes == 0) return 0;
     }
     // All ways to choose a span of each leaf of the core.
     const std::uint32_t cutters = solid.leaves[index].cutters;

@@ -58,9 +58,10 @@ private:
 
 /// Asks a leaf for its spans of the rays from `first` on that are `asked`. Calls use(spans, trouble, trouble_lo) if there are any,
 /// or where there is trouble: the ray runs in the boundary, or was left over. What is told of other rays has no meaning.
+/// `past`: what lies before does not count; a span that begins there begins anywhere in it (LocalRay::from).
 template <class Use>
 HWY_INLINE void ask_leaf(const Walker<8>& w, std::uint32_t index, int first, std::uint32_t asked,
-                         Use&& use) {
+                         Lanes past, Use&& use) {
     const Context<8>& c = w.contexts[0];
     const Leaf& leaf = c.solid->leaves[index];
     const Frame& frame = w.data->frames[leaf.frame];
@@ -74,7 +75,7 @@ HWY_INLINE void ask_leaf(const Walker<8>& w, std::uint32_t index, int first, std
         return local.shift - Lanes(frame.reach) / lane_sqrt(local.ray.dd);
     };
     if (frame.in_blocks) {
-        local.ray.from = end_of_past(load(w.nearest.start + first), Lanes(0.0), local);
+        local.ray.from = end_of_past(past, Lanes(0.0), local);
         solids::RayBlock block;
         store(local.ray, block, first);
         solids::SpanBlock found;
@@ -111,11 +112,12 @@ HWY_INLINE void ask_leaf(const Walker<8>& w, std::uint32_t index, int first, std
 
 /// The same, kept. Returns how many spans a ray has at most.
 HWY_INLINE int spans_of(const Walker<8>& w, std::uint32_t index, int first, std::uint32_t asked,
-                        SpanInLanes (&spans)[kMostSpansInLanes], Mask& trouble, Lanes& trouble_lo) {
+                        Lanes past, SpanInLanes (&spans)[kMostSpansInLanes], Mask& trouble,
+                        Lanes& trouble_lo) {
     int count = 0;
     trouble = mask_of(0);
     trouble_lo = Lanes(kInfinity);
-    ask_leaf(w, index, first, asked,
+    ask_leaf(w, index, first, asked, past,
              [&](const auto& found, Mask where, Lanes from) RAYMO_INLINE_BODY {
                  count = found.count();
                  for (int k = 0; k < count; ++k)
