@@ -269,7 +269,7 @@ Result<csg::Solid> sector_solid(const Spine& spine, double lo, double hi, Source
     if (!coarse.empty()) {
         for (const Chains& chains : kChains) {
             Sweeper sweeper(spine, chains);
-            if (!sweeper.run(coarse, spine.segment().is_closed)) continue;
+            if (!sweeper.run(coarse, spine.is_ring(lo, hi))) continue;
             return make<solids::Patches>(
                 {std::make_shared<const std::vector<meshes::GivenNet>>(sweeper.take()),
                  std::size_t{0}},

@@ -90,6 +90,14 @@ std::optional<Station> Spine::between(const Station& from, const Station& to, Ve
     return station;
 }
 
+std::optional<Vec3> Spine::beside(Vec3 p, Vec3 across) const {
+    const double s = segment_.sign();
+    if (!to_distances(a_, side(0) * s * radius_, b_, side(1) * s * radius_, across, p)) {
+        return std::nullopt;
+    }
+    return p;
+}
+
 double Spine::off(Vec3 c) const {
     // The shortest step to both distances.
     const double s = segment_.sign();
@@ -145,8 +153,9 @@ std::vector<Station> coarse_stations(const Spine& spine, double lo, double hi) {
     }
     at.push_back(hi);
     std::vector<Station> out;
+    const bool is_ring = spine.is_ring(lo, hi);
     for (const double t : at) {
-        if (spine.segment().is_closed && t == hi) {
+        if (is_ring && t == hi) {
             out.push_back(out.front());
             out.back().t = hi;
             break;

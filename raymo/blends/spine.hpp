@@ -45,11 +45,17 @@ public:
     [[nodiscard]] double side(std::size_t which) const {
         return which == 0 ? segment_.edge.a.side : segment_.edge.b.side;
     }
+    /// Whether from parameter lo to hi it runs back into itself.
+    [[nodiscard]] bool is_ring(double lo, double hi) const {
+        return segment_.is_closed && lo == segment_.lo && hi == segment_.hi;
+    }
     /// The ball that belongs to a parameter. Empty where there is none, or its path does not run along the edge.
     [[nodiscard]] std::optional<Station> at(double t) const;
     /// The ball of the path next to `centre`, between two others.
     [[nodiscard]] std::optional<Station> between(const Station& from, const Station& to,
                                                  Vec3 centre) const;
+    /// The point of the path next to another, in the plane across a direction.
+    [[nodiscard]] std::optional<Vec3> beside(Vec3 p, Vec3 across) const;
     /// How far a point is from the path, when it is near it.
     [[nodiscard]] double off(Vec3 centre) const;
     /// The least that such distances can tell.
