@@ -143,6 +143,37 @@ csg::Solid painted(csg::Solid solid, csg::MaterialId material, SourceSpan span) 
     return material == csg::kNoMaterial ? solid : csg::paint(std::move(solid), material, span);
 }
 
+/// Whether a part of a body's boundary that is added shows the same as one that is cut and left without material.
+bool shows_alike(const Body& body, csg::MaterialId material) {
+    return material != csg::kNoMaterial ||
+           std::all_of(body.leaves().begin(), body.leaves().end(),
+                       [](const Leaf& leaf) { return leaf.material == csg::kNoMaterial; });
+}
+
+/// Whether a tube is nowhere where something is taken away for another.
+bool stands_apart(const RoundedRing& ring, const std::vector<RoundedRing>& others) {
+    const auto is_clear = [](const RoundedRing& tube, const RoundedRing& sectors) {
+        const Aabb box = csg::bounds(tube.tube);
+        return std::all_of(
+            sectors.sectors.begin(), sectors.sectors.end(),
+            [&](const csg::Solid& s) { return overlap(box, csg::bounds(s)).empty(); });
+    };
+    return std::all_of(others.begin(), others.end(), [&](const RoundedRing& other) {
+        return is_clear(ring, other) && is_clear(other, ring);
+    });
+}
+
+csg::Solid rounded_off(csg::Solid solid, std::vector<RoundedRing> rings, SourceSpan span) {
+    std::vector<csg::Solid> cut{std::move(solid)};
+    std::vector<csg::Solid> joined(1);
+    for (RoundedRing& ring : rings) {
+        for (csg::Solid& sector : ring.sectors) cut.push_back(std::move(sector));
+        joined.push_back(std::move(ring.tube));
+    }
+    joined[0] = csg::boolean(csg::Op::difference, std::move(cut), span);
+    return csg::boolean(csg::Op::unite, std::move(joined), span);
+}
+
 /// The box that holds the edges which may be chosen. `chosen`: those that are.
 Aabb choice_of(const Form& form, const std::vector<Segment>& chosen) {
     Aabb box = form.where ? csg::bounds(form.where) : Aabb::everything();
@@ -223,6 +254,7 @@ Result<Blended> blend(const Body& body, csg::Solid sharp, bool within_operands,
         if (jobs[i].segment.is_closed) continue;
         for (std::size_t end = 0; end < 2; ++end) plans[i][end] = plan_of(body, jobs, i, end);
     }
+    std::vector<RoundedRing> rings;
     for (std::size_t i = 0; i < jobs.size(); ++i) {
         if (!go_on(jobs[i].segment.space ? 1e6 : 10.0)) return stopped;
         extend(body, jobs, i, form.radius, plans[i]);
@@ -234,18 +266,27 @@ Result<Blended> blend(const Body& body, csg::Solid sharp, bool within_operands,
                                     body.name_of(body.faces()[segment.face_b])),
                         "leave out `kind`");
         }
+        const csg::MaterialId material = body.leaves()[body.faces()[segment.face_a].leaf].material;
+        if (segment.space && shows_alike(body, material)) {
+            auto ring = rounded_ring(body, segment, form.radius, span);
+            if (ring && *ring && stands_apart(**ring, rings)) {
+                (*ring)->tube = painted(std::move((*ring)->tube), material, span);
+                rings.push_back(*std::move(*ring));
+                continue;
+            }
+        }
         auto made = segment.space
                         ? tube_wedge(body, segment, form.radius, jobs[i].lo, jobs[i].hi, span)
                         : solid_of(segment, form, jobs[i].lo, jobs[i].hi, span);
         if (!made && segment.space && made.error().code == ErrorCode::out_of_range)
             return is_too_sharp(body, segment, form.radius, span);
         if (!made) return Failure(std::move(made).error());
-        const Face& face = body.faces()[jobs[i].segment.face_a];
-        jobs[i].solid = painted(std::move(*made), body.leaves()[face.leaf].material, span);
+        jobs[i].solid = painted(std::move(*made), material, span);
     }
     std::vector<csg::Solid> rounds;
     std::vector<csg::Solid> fillets;
     for (std::size_t i = 0; i < jobs.size(); ++i) {
+        if (!jobs[i].solid) continue;
         auto cut = cut_at_ends(body, jobs, i, plans[i], span);
         if (!cut) return Failure(std::move(cut).error());
         (jobs[i].segment.is_convex ? rounds : fillets).push_back(std::move(*cut));
@@ -256,6 +297,7 @@ Result<Blended> blend(const Body& body, csg::Solid sharp, bool within_operands,
         (is_convex ? rounds : fillets).push_back(std::move(solid));
     }
     Blended out{std::move(sharp), jobs.size()};
+    if (!rings.empty()) out.solid = rounded_off(std::move(out.solid), std::move(rings), span);
     if (!rounds.empty()) {
         rounds.insert(rounds.begin(), std::move(out.solid));
         out.solid = csg::boolean(csg::Op::difference, std::move(rounds), span);

@@ -113,12 +113,13 @@ Result<Body> Body::make(csg::Op op, const std::vector<csg::Solid>& operands) {
     return body;
 }
 
-Where Body::where(Vec3 p, std::size_t begin, std::size_t end) const {
+template <class InLeaf>
+Where Body::combined(std::size_t begin, std::size_t end, InLeaf&& in_leaf) const {
     std::vector<Where> values;
     for (std::size_t i = begin; i < end; ++i) {
         const Step& step = steps_[i];
         if (step.is_leaf) {
-            values.push_back(where_in(leaves_[step.count], p));
+            values.push_back(in_leaf(step.count));
             continue;
         }
         const auto first = values.end() - static_cast<std::ptrdiff_t>(step.count);
@@ -132,6 +133,14 @@ Where Body::where(Vec3 p, std::size_t begin, std::size_t end) const {
         values.push_back(value);
     }
     return values.front();
+}
+
+Where Body::where(Vec3 p, std::size_t begin, std::size_t end) const {
+    return combined(begin, end, [&](std::uint32_t leaf) { return where_in(leaves_[leaf], p); });
+}
+
+Where Body::where(const std::vector<Where>& in_leaves) const {
+    return combined(0, steps_.size(), [&](std::uint32_t leaf) { return in_leaves[leaf]; });
 }
 
 bool Body::is_on(const Face& face, Vec3 p, double margin) const {

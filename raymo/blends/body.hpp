@@ -45,6 +45,8 @@ public:
     [[nodiscard]] const Aabb& box() const { return box_; }
     /// Where a point is, as its leaves decide it: on when a leaf on whose boundary it lies could change the answer.
     [[nodiscard]] solids::Where where(Vec3 p) const { return where(p, 0, steps_.size()); }
+    /// What the Boolean makes of a place of which it is known where it is with respect to each leaf.
+    [[nodiscard]] solids::Where where(const std::vector<solids::Where>& in_leaves) const;
     /// The same of one of the operands alone.
     [[nodiscard]] solids::Where where_in_operand(std::size_t operand, Vec3 p) const {
         return where(p, operand == 0 ? 0 : ends_[operand - 1], ends_[operand]);
@@ -64,6 +66,10 @@ private:
     };
     [[nodiscard]] Result<void> add(const csg::Solid& solid, std::size_t operand);
     [[nodiscard]] solids::Where where(Vec3 p, std::size_t begin, std::size_t end) const;
+    /// in_leaf(i) tells of leaf i.
+    template <class InLeaf>
+    [[nodiscard]] solids::Where combined(std::size_t begin, std::size_t end,
+                                         InLeaf&& in_leaf) const;
 
     std::vector<Leaf> leaves_;
     std::vector<Face> faces_;

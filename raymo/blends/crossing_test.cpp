@@ -108,6 +108,74 @@ TEST_CASE("crossings: a hole under the ball is seen wherever it is") {
     }
 }
 
+namespace {
+
+/// A post with a bore that is rounded at both ends, and what that is: sectors are taken away, and the tubes joined to the rest.
+bool is_rounded_off(const csg::Solid& solid) {
+    const csg::Node& node = solid.node();
+    if (node.kind != csg::NodeKind::boolean || node.op != csg::Op::unite) return false;
+    const auto& operands = csg::as_boolean(node).operands;
+    return operands.size() > 1 && operands[0].node().kind == csg::NodeKind::boolean &&
+           operands[0].node().op == csg::Op::difference &&
+           operands[1].node().kind != csg::NodeKind::boolean;
+}
+
+}  // namespace
+
+TEST_CASE("crossings: the rims of a bore are rounded by joining the tubes") {
+    const double r = 1.0, b = 6.0;
+    const csg::Solid post = made("cylinder", {10.0, 60.0, true});
+    const csg::Solid solid =
+        blended(csg::Op::difference, {post, steep_cylinder(b, 90)}, ball(r), 2);
+    CHECK(is_rounded_off(solid));
+    Traced traced(solid);
+    // In the plane through both axes the ball touches two lines at right angles; the bore runs along y.
+    for (const double side : {-1.0, 1.0}) {
+        for (double z = b + 0.01; z < b + r; z += 0.07) {
+            const double depth = r - std::sqrt(r * r - (b + r - z) * (b + r - z));
+            CHECK(traced.first({0, side * 20, z}, {0, -side, 0}) == near(10.0 + depth));
+            CHECK(traced.first({0, side * 20, -z}, {0, -side, 0}) == near(10.0 + depth));
+        }
+    }
+    // At the sides the walls meet at an angle; there the tube is as far from the ball's centre.
+    const double out = std::sqrt((10.0 - r) * (10.0 - r) - (b + r) * (b + r));
+    const Vec3 centre{b + r, out, 0};
+    for (double part = 0.1; part < 1.0; part += 0.1) {
+        const Vec3 to_post = unit(Vec3{centre.x, centre.y, 0});
+        const Vec3 way = unit(to_post * part + Vec3{-1, 0, 0} * (1.0 - part));
+        CHECK(traced.first(centre + way * (3.0 * r), -way) == near(2.0 * r));
+    }
+}
+
+TEST_CASE("crossings: nothing else is taken away where a rim is rounded") {
+    // A sleeve stands around the post, nearer to it than the sectors of its rims reach.
+    const csg::Solid post = made("cylinder", {10.0, 60.0, true});
+    const csg::Solid sleeve =
+        csg::boolean(csg::Op::difference,
+                     {made("cylinder", {12.0, 60.0, true}), made("cylinder", {10.01, 62.0, true})});
+    Form form = ball(1.0);
+    form.where = made("cylinder", {10.005, 60.0, true});
+    const csg::Solid solid =
+        blended(csg::Op::difference,
+                {csg::boolean(csg::Op::unite, {post, sleeve}), steep_cylinder(6, 90)}, form, 2);
+    CHECK(!is_rounded_off(solid));
+    Traced traced(solid);
+    for (double z = 6.002; z < 8.0; z += 0.013) {
+        CAPTURE(z);
+        CHECK(traced.where({0, 10.015, z}) == solids::Where::in);
+        CHECK(traced.where({0, 10.005, z}) == solids::Where::out);
+    }
+}
+
+TEST_CASE("crossings: a rim shows the material that its wedge would show") {
+    const csg::Solid post = made("cylinder", {10.0, 60.0, true});
+    const csg::Solid red = csg::paint(steep_cylinder(6, 90), 1);
+    const csg::Solid solid = blended(csg::Op::difference, {post, red}, ball(1.0), 2);
+    // The post has no material of its own: what cuts it borrows.
+    CHECK(!is_rounded_off(solid));
+    CHECK(is_rounded_off(blended(csg::Op::difference, {csg::paint(post, 2), red}, ball(1.0), 2)));
+}
+
 TEST_CASE("crossings: what has been rounded has no more edges") {
     const csg::Solid once = blended(block(10, 20, 30), Edges::convex, ball(2), 12);
     blended(once, Edges::convex, ball(1), 0);

@@ -15,6 +15,10 @@ namespace {
 constexpr double kTube = 0x1p-30;
 /// How far the tube goes on beyond the wedge, as part of the radius: its ends cut nothing.
 constexpr double kSpare = 0x1p-4;
+/// Sectors along a ring that is cut away: each so long, in radii, but at least so many and at most.
+constexpr double kStretch = 8.0;
+constexpr std::size_t kLeastStretches = 4, kMostStretches = 32;
+
 Failure lost() {
     return fail(ErrorCode::out_of_range, "no ball of this radius rolls along the whole edge");
 }
@@ -73,6 +77,54 @@ Surface offset(Surface s, double by) {
     return s;
 }
 
+/// Whether a box is on a face's side where its leaf is, all of it. Of other than planes that is not asked.
+bool is_within(const Face& face, const Aabb& box) {
+    if (face.surface.kind != SurfaceKind::plane) return false;
+    for (unsigned corner = 0; corner < 8; ++corner) {
+        const Vec3 p{(corner & 1U) != 0 ? box.hi.x : box.lo.x,
+                     (corner & 2U) != 0 ? box.hi.y : box.lo.y,
+                     (corner & 4U) != 0 ? box.hi.z : box.lo.z};
+        if (!(face.side * face.surface.distance(p) < 0.0)) return false;
+    }
+    return true;
+}
+
+/// Whether a leaf is what its faces have in common on its side of them.
+bool is_of_its_faces(const Leaf& leaf) {
+    const auto& kernel = csg::as_leaf(leaf.solid.node()).solid.kernel;
+    return leaf.unknown.empty() && (std::holds_alternative<solids::Block::Kernel>(kernel) ||
+                                    std::holds_alternative<solids::Sphere::Kernel>(kernel) ||
+                                    std::holds_alternative<solids::Cylinder::Kernel>(kernel) ||
+                                    std::holds_alternative<solids::Cone::Kernel>(kernel) ||
+                                    std::holds_alternative<solids::Torus::Kernel>(kernel));
+}
+
+/// Whether nothing of the body is in a box beyond the faces of a convex edge, on their far side. Beyond a face its leaf is not, if it
+/// lies on the near side; or it is everywhere in the box, if its other faces are not there. All other leaves are as they may be.
+bool is_free_beyond(const Body& body, const Segment& segment, const Aabb& box) {
+    constexpr auto kMay = solids::Where::on;
+    std::vector<solids::Where> states;
+    for (const Leaf& leaf : body.leaves())
+        states.push_back(overlap(leaf.near, box).empty() ? solids::Where::out : kMay);
+    for (const bool beyond_a : {true, false}) {
+        const Face& face = body.faces()[beyond_a ? segment.face_a : segment.face_b];
+        const Leaf& leaf = body.leaves()[face.leaf];
+        if (!is_of_its_faces(leaf)) return false;
+        const double side = (beyond_a ? segment.edge.a : segment.edge.b).side;
+        std::vector<solids::Where> known = states;
+        if (side == face.side) {
+            known[face.leaf] = solids::Where::out;
+        } else {
+            for (std::size_t f = leaf.first_face; f < leaf.first_face + leaf.face_count; ++f) {
+                if (&body.faces()[f] != &face && !is_within(body.faces()[f], box)) return false;
+            }
+            known[face.leaf] = solids::Where::in;
+        }
+        if (body.where(known) != solids::Where::out) return false;
+    }
+    return true;
+}
+
 }  // namespace
 
 Result<csg::Solid> tube_wedge(const Body& body, const Segment& segment, double radius, double lo,
@@ -101,6 +153,33 @@ Result<csg::Solid> tube_wedge(const Body& body, const Segment& segment, double r
                                   ? kept[0]
                                   : csg::boolean(csg::Op::intersection, std::move(kept), span));
     return csg::boolean(csg::Op::difference, std::move(lost), span);
+}
+
+Result<std::optional<RoundedRing>> rounded_ring(const Body& body, const Segment& segment,
+                                                double radius, SourceSpan span) {
+    if (!segment.space || !segment.is_closed || !segment.is_convex) return std::nullopt;
+    const Spine spine(body, segment, radius);
+    const double length = segment.hi - segment.lo;
+    const auto stretches = static_cast<std::size_t>(
+        std::clamp(length / (kStretch * radius), static_cast<double>(kLeastStretches),
+                   static_cast<double>(kMostStretches)));
+    const auto place = [&](std::size_t i) {
+        return segment.lo + length * (static_cast<double>(i) / static_cast<double>(stretches));
+    };
+    RoundedRing out;
+    for (std::size_t i = 0; i < stretches; ++i) {
+        auto sector =
+            sector_solid(spine, place(i) - kBeyond * radius, place(i + 1) + kBeyond * radius, span);
+        if (!sector) return std::nullopt;
+        if (!is_free_beyond(body, segment, csg::bounds(*sector))) return std::nullopt;
+        out.sectors.push_back(std::move(*sector));
+    }
+    // Off by half of what it may be, and smaller by the other half: nowhere outside of the body.
+    constexpr double kHalf = 0.5 * kTube;
+    auto ball = tube(spine, segment.lo, segment.hi, kHalf * radius, (1.0 - kHalf) * radius, span);
+    if (!ball) return Failure(std::move(ball).error());
+    out.tube = std::move(*ball);
+    return out;
 }
 
 }  // namespace raymo::blends

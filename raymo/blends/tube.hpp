@@ -2,7 +2,16 @@
 //
 // The ball's tube is the sphere that is swept along the path of its centres (spine.hpp), which cubics follow. The wedge is what
 // the tube leaves of the sectors between the path and the edge (sector.hpp), on the faces' own side.
+//
+// A body B is rounded by taking the wedge away. Of a ring of its edge this can be put another way: with sectors S and the tube T,
+//     B - (S - T)  =  (B - S) + T,
+// since the ball rolls within B. Rays find the first surface of the right side much sooner: what is taken away from B are plain leaves,
+// several of them along the ring, with small boxes, and the tube is another leaf of the union. But S goes on beyond the
+// faces, and no other part of B may be there.
 #pragma once
+
+#include <optional>
+#include <vector>
 
 #include "raymo/blends/segment.hpp"
 
@@ -12,5 +21,16 @@ namespace raymo::blends {
 /// too sharply.
 [[nodiscard]] Result<csg::Solid> tube_wedge(const Body& body, const Segment& segment, double radius,
                                             double lo, double hi, SourceSpan span);
+
+/// A convex edge that runs back into itself, rounded: what is taken away from the body, and what is joined to the rest.
+struct RoundedRing {
+    std::vector<csg::Solid> sectors;
+    csg::Solid tube;
+};
+/// Of a segment along a curve in space. Empty where it is no such edge, or something may be beyond its faces: there is only the
+/// wedge then. Errors as of the wedge.
+[[nodiscard]] Result<std::optional<RoundedRing>> rounded_ring(const Body& body,
+                                                              const Segment& segment, double radius,
+                                                              SourceSpan span);
 
 }  // namespace raymo::blends
