@@ -234,22 +234,24 @@ struct SweepLines {
             int depth;
         };
         Part open[kSweepHalvings + 2];
-        std::size_t count = 1;
+        std::size_t count = 0;
+        Part first;
         for (int i = 0; i < 4; ++i) {
             const auto& point = piece.cubics.c[static_cast<std::size_t>(i)];
             const Triple<R> to{R(point[0]) - o.x, R(point[1]) - o.y, R(point[2]) - o.z};
-            open[0].c.tau[i] = dot(to, along);
-            open[0].c.p[i] = dot(to, side);
-            open[0].c.q[i] = dot(to, up);
-            open[0].c.radius[i] = R(point[3]);
+            first.c.tau[i] = dot(to, along);
+            first.c.p[i] = dot(to, side);
+            first.c.q[i] = dot(to, up);
+            first.c.radius[i] = R(point[3]);
         }
-        const LaneCubics<R> whole = open[0].c;
-        open[0].there = asked;
-        open[0].u0 = 0.0;
-        open[0].u1 = 1.0;
-        open[0].depth = 0;
-        while (count > 0) {
-            const Part part = open[--count];
+        const LaneCubics<R>& whole = first.c;
+        first.there = asked;
+        first.u0 = 0.0;
+        first.u1 = 1.0;
+        first.depth = 0;
+        // No part is copied: they are large.
+        for (Part* next = &first; next != nullptr; next = count > 0 ? &open[--count] : nullptr) {
+            const Part& part = *next;
             const LaneBounds<R, M> b = bounds_of(part.c, part.u1 - part.u0, part.depth);
             M there = lane_and(part.there, b.disc_most > R(0.0) - (b.slack + b.rounding));
             there = lane_and(there, lane_not(lane_or(found.rest, b.tau_most + b.wide < past)));
@@ -282,17 +284,20 @@ struct SweepLines {
                 leave(there);
                 continue;
             }
+            // The right half takes the place of what was halved, if that is on the list.
+            const double u0 = part.u0, u1 = part.u1;
+            const int depth = part.depth + 1;
             Part& right = open[count];
             Part& left = open[count + 1];
             halve(part.c.tau, left.c.tau, right.c.tau);
             halve(part.c.p, left.c.p, right.c.p);
             halve(part.c.q, left.c.q, right.c.q);
             halve(part.c.radius, left.c.radius, right.c.radius);
-            left.u0 = part.u0;
-            left.u1 = right.u0 = 0.5 * (part.u0 + part.u1);
-            right.u1 = part.u1;
+            left.u0 = u0;
+            left.u1 = right.u0 = 0.5 * (u0 + u1);
+            right.u1 = u1;
             left.there = right.there = there;
-            left.depth = right.depth = part.depth + 1;
+            left.depth = right.depth = depth;
             count += 2;
         }
     }
