@@ -55,6 +55,8 @@ namespace {
 constexpr int kMostHalvings = 40;
 /// Parts of one piece that are looked at, at most. Transversal lines need less than 10, those along a piece less than 50.
 constexpr int kMostParts = 600;
+/// Steps towards the largest disc of a part, at most; every fourth is a halving.
+constexpr int kMostPeakSteps = 200;
 
 /// The piece in the line's frame.
 Cubics seen_along(const SweepLine& line, const Cubics& q) {
@@ -287,16 +289,22 @@ private:
             peak = place_at(whole_, 0.5 * (part.u0 + part.u1));  // disc > 0 everywhere
             most = peak.disc;
         } else {
-            double u = 0.5 * (part.u0 + part.u1);
-            for (int i = 0;; ++i) {
+            double lo = part.u0;
+            double hi = part.u1;
+            double u = 0.5 * (lo + hi);
+            for (int i = 1;; ++i) {
                 peak = place_at(whole_, u);
                 most = peak.disc;
                 if (u == (peak.disc1 > 0.0 ? part.u1 : part.u0)) break;
                 const double gain = peak.disc1 * peak.disc1 / (2.0 * std::fabs(b.d2_most));
                 off = std::min(width, std::fabs(peak.disc1 / b.d2_most));
                 most = peak.disc + gain;
-                if (i >= 8 || gain <= 0.05 * std::max(peak.disc, b.slack)) break;
-                u = std::clamp(u - peak.disc1 / std::min(peak.disc2, b.d2_most), part.u0, part.u1);
+                if (i == kMostPeakSteps || gain <= 0.05 * std::max(peak.disc, b.slack)) break;
+                // Newton's steps, and a halving now and then: next to a thin disc's place they may lead to and fro.
+                (peak.disc1 > 0.0 ? lo : hi) = u;
+                const double next =
+                    std::clamp(u - peak.disc1 / std::min(peak.disc2, b.d2_most), part.u0, part.u1);
+                u = i % 4 != 0 && next >= lo && next <= hi && next != u ? next : 0.5 * (lo + hi);
             }
         }
         if (most <= -b.slack) return false;

@@ -443,7 +443,8 @@ private:
             peak = choose_sphere(active, at, peak);
             most = lane_select(active, peak.disc, most);
         }
-        there = lane_and(there, most > zero - b.slack);
+        // Where the largest has not been found it may be larger.
+        there = lane_and(there, lane_or(active, most > zero - b.slack));
         const M met = peak.disc >= R(4.0) * b.slack;
         leave(lane_and(there, lane_not(met)));
         there = lane_and(there, met);

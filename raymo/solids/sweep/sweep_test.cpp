@@ -4,6 +4,7 @@
 #include <doctest/doctest.h>
 
 #include <numbers>
+#include <random>
 
 #include "raymo/solids/inventory.hpp"
 #include "raymo/solids/sweep/test_paths.hpp"
@@ -86,6 +87,61 @@ TEST_CASE("sweep: a parabola, thin and thick") {
     const auto thick = Asked(parabola(0.8)).spans({0, 0.75, 5}, {0, 0, -1});
     REQUIRE(thick.size() == 1);
     CHECK(0.5 * (thick[0].exit.s - thick[0].enter.s) == near(std::sqrt(0.64 - 0.5)));
+}
+
+TEST_CASE("sweep: a thin tube is met along its way, nearly tangent to it") {
+    curves::Path path;
+    path.spans.push_back(bezier(
+        {{0.458813838502121, 0.5982450430389743, -0.32294701883082455}, 7.238256780441938e-05},
+        {{-0.3884029701608187, 0.05295040837129772, 0.7305386203393447}, 0.00012560047722121032},
+        {{-0.5871820238332148, -0.9840107082043204, -0.997515700904904}, 8.46642065763567e-05},
+        {{0.6861567600481921, -0.5271417748949789, 0.039641876380597685}, 0.00011020711254274813}));
+    const Asked tube(path);
+    const Vec3 within{-0.047476210014878936, 0.12038073768250201, 0.032297398498792734};
+    REQUIRE(tube.where(within) == Where::in);
+    const Vec3 along{-0.5717119623574586, -0.8204531663086503, -0.0014261807367980806};
+    const auto first = tube.spans(within, along);
+    REQUIRE(first.size() == 1);
+    CHECK(first[0].enter.s == doctest::Approx(-0.014425275531723).epsilon(1e-9));
+    CHECK(first[0].exit.s == doctest::Approx(0.014295185808923).epsilon(1e-9));
+    // Tilted, and along other thin tubes: a point of the middle line is within the tube.
+    std::mt19937_64 random(31);
+    const auto number = [&] { return std::uniform_real_distribution<double>(-1, 1)(random); };
+    int lost = 0;
+    const auto ask = [&](const Asked& asked, Vec3 p, Vec3 way) {
+        bool is_held = false;
+        for (const Span& span : asked.spans(p, way))
+            is_held = is_held || (span.enter.s < 0.0 && span.exit.s > 0.0);
+        if (!is_held) ++lost;
+    };
+    for (int i = 0; i < 3000; ++i) {
+        const double tilt = std::pow(10.0, -2.0 - 0.75 * (1.0 + number()));
+        ask(tube, within, unit(along + Vec3{number(), number(), number()} * tilt));
+    }
+    CHECK(lost == 0);
+    for (int k = 0; k < 200; ++k) {
+        const double thick = std::pow(10.0, -4.3 + 0.7 * number());
+        const auto ball = [&] {
+            return Ball{{number(), number(), number()}, thick * (1.0 + 0.3 * number())};
+        };
+        curves::Path other;
+        other.spans.push_back(bezier(ball(), ball(), ball(), ball()));
+        const curves::PathSpan& s = other.spans.front();
+        const Asked asked(other);
+        for (int i = 0; i < 100; ++i) {
+            const double u = 0.5 + 0.45 * number();
+            const auto at = [&](const std::array<double, 4>& c) { return curves::value_at(c, u); };
+            const auto slope = [&](const std::array<double, 4>& c) {
+                return curves::value_at(curves::derivative(c), u);
+            };
+            const Vec3 p{at(s.x), at(s.y), at(s.z)};
+            const Vec3 d{slope(s.x), slope(s.y), slope(s.z)};
+            if (asked.where(p) != Where::in) continue;  // thinner than rounding
+            const double tilt = std::pow(10.0, -3.0 + number());
+            ask(asked, p, unit(unit(d) + Vec3{number(), number(), number()} * tilt));
+        }
+    }
+    CHECK(lost == 0);
 }
 
 TEST_CASE("sweep: volumes of curved tubes") {
