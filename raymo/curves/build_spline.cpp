@@ -315,6 +315,9 @@ Result<Spline<D>> spline(std::span<const Point<D>> points, const SplineForm& for
     std::erase_if(out.spans, [&](const SplineSpan<D>& s) {
         return s[0] == s[3] && (f.kind == SplineKind::linear || (s[0] == s[1] && s[1] == s[2]));
     });
+    // Points may differ by less than the sums of a span show.
+    if (out.spans.empty())
+        return wrong_points("all points are the same", "a curve needs places that differ", {});
     out.closed = out.spans.back()[3] == out.spans.front()[0];
     return out;
 }

@@ -245,6 +245,9 @@ TEST_CASE("what is wrong with the points is said") {
           "a curve needs at least 2 points");
     CHECK(message({}, {SplineKind::catmull, 3, false, false}) == "a curve needs at least 2 points");
     CHECK(message(Points(5, {2, 2}), cubic) == "all points are the same");
+    // And so near that no span shows it.
+    CHECK(message({{0.3, 1}, {0.3, 1}, {0.3, 1}, {0.1 + 0.2, 1}}, cubic) ==
+          "all points are the same");
     CHECK(message({{0, 0}, {1e300, 0}, {1, 1}, {2, 2}}, cubic) ==
           "the coordinates are too large to be computed with");
     CHECK(message({{0, 0}, {std::nan(""), 0}, {1, 1}, {2, 2}}, cubic) ==
