@@ -22,7 +22,7 @@
 
 namespace raymo::blends {
 
-/// The solid, from parameter lo to hi. Error: out_of_range, the edge bends too sharply for a ball of this radius. Cost: some
+/// The solid, from parameter lo to hi; closed up at both ends unless that is a whole ring. Error: out_of_range, the edge bends too sharply for a ball of this radius. Cost: some
 /// milliseconds.
 [[nodiscard]] Result<csg::Solid> sector_solid(const Spine& spine, double lo, double hi,
                                               SourceSpan span);

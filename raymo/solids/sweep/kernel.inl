@@ -252,7 +252,9 @@ struct SweepLines {
         // No part is copied: they are large.
         for (Part* next = &first; next != nullptr; next = count > 0 ? &open[--count] : nullptr) {
             const Part& part = *next;
-            const LaneBounds<R, M> b = bounds_of(part.c, part.u1 - part.u0, part.depth);
+            LaneBounds<R, M> b;
+            R disc[7];
+            bound_reach(part.c, part.depth, disc, b);
             M there = lane_and(part.there, b.disc_most > R(0.0) - (b.slack + b.rounding));
             there = lane_and(there, lane_not(lane_or(found.rest, b.tau_most + b.wide < past)));
             if (!lane_any(there)) continue;
@@ -262,6 +264,8 @@ struct SweepLines {
             }
             there =
                 lane_and(there, lane_not(found.covers(b.tau_least - b.wide, b.tau_most + b.wide)));
+            if (!lane_any(there)) continue;
+            bound_slopes(part.c, part.u1 - part.u0, disc, b);
             const M positive = b.disc_least > R(4.0) * (b.slack + b.rounding);
             const M at_ends =
                 lane_and(lane_and(there, positive), lane_and(b.first.one_way(), b.last.one_way()));
@@ -321,21 +325,22 @@ private:
         right[3] = c[3];
     }
 
-    RAYMO_INLINE LaneBounds<R, M> bounds_of(const LaneCubics<R>& c, double width, int depth) const {
+    /// The coefficients of disc, and how far chords may reach.
+    RAYMO_INLINE void bound_reach(const LaneCubics<R>& c, int depth, R (&disc)[7],
+                                  LaneBounds<R, M>& b) const {
         const R zero(0.0);
-        LaneBounds<R, M> b;
         const R(&a)[4] = c.radius;
         const R(&p)[4] = c.p;
         const R(&q)[4] = c.q;
         const auto pair = [&](int i, int j)
                               RAYMO_INLINE_BODY { return a[i] * a[j] - p[i] * p[j] - q[i] * q[j]; };
-        const R disc[7] = {pair(0, 0),
-                           pair(0, 1),
-                           R(0.4) * pair(0, 2) + R(0.6) * pair(1, 1),
-                           R(0.1) * pair(0, 3) + R(0.9) * pair(1, 2),
-                           R(0.4) * pair(1, 3) + R(0.6) * pair(2, 2),
-                           pair(2, 3),
-                           pair(3, 3)};
+        disc[0] = pair(0, 0);
+        disc[1] = pair(0, 1);
+        disc[2] = R(0.4) * pair(0, 2) + R(0.6) * pair(1, 1);
+        disc[3] = R(0.1) * pair(0, 3) + R(0.9) * pair(1, 2);
+        disc[4] = R(0.4) * pair(1, 3) + R(0.6) * pair(2, 2);
+        disc[5] = pair(2, 3);
+        disc[6] = pair(3, 3);
         R size = zero;
         R radius = zero;
         b.tau_least = b.tau_most = c.tau[0];
@@ -348,20 +353,27 @@ private:
         size = size + radius * radius;
         b.rounding = R(8.0 * kUnitRoundoff * (1.0 + 0.5 * depth)) * size;
         b.slack = slack_of(radius, error);
-        R low(0.0), high(0.0), bend(0.0), last(0.0);
-        b.disc_least = b.disc_most = disc[0];
-        b.disc_first = disc[0];
+        b.disc_least = b.disc_most = b.disc_first = disc[0];
         b.disc_last = disc[6];
+        for (int i = 1; i < 7; ++i) {
+            b.disc_least = lane_min(b.disc_least, disc[i]);
+            b.disc_most = lane_max(b.disc_most, disc[i]);
+        }
+        b.wide = lane_sqrt(lane_max(b.disc_most, zero) + b.slack + b.rounding);
+    }
+
+    /// All that is said of derivatives, after bound_reach().
+    RAYMO_INLINE void bound_slopes(const LaneCubics<R>& c, double width, const R (&disc)[7],
+                                   LaneBounds<R, M>& b) const {
+        const R zero(0.0);
+        R low(0.0), high(0.0), bend(0.0), last(0.0);
         for (int i = 0; i < 6; ++i) {
-            b.disc_least = lane_min(b.disc_least, disc[i + 1]);
-            b.disc_most = lane_max(b.disc_most, disc[i + 1]);
             const R d = disc[i + 1] - disc[i];
             low = i == 0 ? d : lane_min(low, d);
             high = i == 0 ? d : lane_max(high, d);
             if (i > 0) bend = i == 1 ? d - last : lane_max(bend, d - last);
             last = d;
         }
-        b.wide = lane_sqrt(lane_max(b.disc_most, zero) + b.slack + b.rounding);
         const double scale = 1.0 / width;
         const R two(2.0);
         b.d1_rises = low > zero;
@@ -383,7 +395,6 @@ private:
         const R h_most = d_most / lane_select(d_most <= zero, b.wide, narrow);
         b.first = {h_least > t_most, h_most < t_least};
         b.last = {t_least + h_least > zero, t_most + h_most < zero};
-        return b;
     }
 
     /// B; `turn`: the most that sign tau'' is.

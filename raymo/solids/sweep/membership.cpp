@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "raymo/core/small_list.hpp"
 #include "raymo/curves/roots.hpp"
 #include "raymo/math/tolerance.hpp"
 #include "raymo/solids/sweep/sweep.hpp"
@@ -208,12 +209,14 @@ Vec3 Sweep::Kernel::normal(Vec3 p, std::uint16_t face) const {
                 best.least = std::max(best.least, -std::fabs(height) - kCapEdge);
             }
             at(seen_from(p, piece.cubics), best);
-            return true;
         };
-        pieces_at(spheres, p, kBoxMargin,
-                  [&](const SweptPiece& piece) { return look(piece, look_at_ends); });
-        pieces_at(spheres, p, kBoxMargin,
-                  [&](const SweptPiece& piece) { return look(piece, look_between); });
+        SmallList<const SweptPiece*, 64> near;
+        pieces_at(spheres, p, kBoxMargin, [&](const SweptPiece& piece) {
+            near.push_back(&piece);
+            look(piece, look_at_ends);
+            return true;
+        });
+        for (const SweptPiece* piece : near) look(*piece, look_between);
         if (std::isinf(best.distance)) {
             best.least = -std::numeric_limits<double>::infinity();
             for (const SweptPiece& piece : spheres.pieces) {
