@@ -24,6 +24,7 @@
 //
 // Pieces that are done:
 //   clear     all coefficients have one known sign: no zero;
+//   outweighed  the few of the other sign have two neighbours that outweigh them (outweighed.hpp): no zero;
 //   simple    known negative ones, then unknown, then known positive ones, or the other way about: one crossing;
 //   blurred   none is larger than twice the doubt: nothing can be told apart here;
 //   monotone  the coefficients rise or fall: what happens is told by the ends;
@@ -40,6 +41,7 @@
 
 #include "raymo/curves/crossing.hpp"
 #include "raymo/curves/halving.hpp"
+#include "raymo/curves/outweighed.hpp"
 #include "raymo/curves/root_teller.hpp"
 #include "raymo/math/tolerance.hpp"
 
@@ -290,26 +292,41 @@ void isolate_unfit(const Bernstein<N>& p, double noise, RootList<N>& out) {
     Teller<N>(out).blur({0.0, true, p[0] < 0.0}, {1.0, true, p[N] < 0.0}, 0.0, 1.0, 0.5);
 }
 
-/// The roots of a polynomial that is not clear.
+/// Whether a polynomial with these extremes can be computed with; but a coefficient may be NaN.
+RAYMO_INLINE bool is_fit(double least, double most, double noise) {
+    return lane_max(-least, most) <= kLargest && noise >= 0.0 && noise <= kLargest;
+}
+
 template <int N>
-[[gnu::noinline]] void find_unclear(const Bernstein<N>& p, double noise, double least, double most,
-                                    RootList<N>& out) {
-    const double size = lane_max(-least, most);
-    if (!(size <= kLargest && noise >= 0.0 && noise <= kLargest)) {
-        isolate_unfit<N>(p, noise, out);
-        return;
-    }
-    if ((p[0] < 0.0) == (p[N] < 0.0) && halves_are_clear<N>(p, noise, size)) {
-        out.count = 0;
-        return;
-    }
+RAYMO_INLINE bool has_nan(const Bernstein<N>& p) {
     double sum = 0.0;
     for (const double x : p) sum += x;
-    if (std::isnan(sum)) {
+    return std::isnan(sum);
+}
+
+/// p has the same sign at 0 and 1, and is not clear.
+template <int N>
+[[gnu::noinline]] void find_none_or_more(const Bernstein<N>& p, double noise, double least,
+                                         double most, RootList<N>& out) {
+    const bool fit = is_fit(least, most, noise);
+    if (fit && halves_are_clear<N>(p, noise, lane_max(-least, most))) {
+        out.count = 0;
+    } else if (fit && !has_nan<N>(p)) {
+        isolate<N>(p, noise, least, most, out);
+    } else {
         isolate_unfit<N>(p, noise, out);
-        return;
     }
-    if (!tell_simple<N>(p, noise, out)) isolate<N>(p, noise, least, most, out);
+}
+
+/// p has different signs at 0 and 1.
+template <int N>
+[[gnu::noinline]] void find_one_or_more(const Bernstein<N>& p, double noise, double least,
+                                        double most, RootList<N>& out) {
+    if (!is_fit(least, most, noise) || has_nan<N>(p)) {
+        isolate_unfit<N>(p, noise, out);
+    } else if (!tell_simple<N>(p, noise, out)) {
+        isolate<N>(p, noise, least, most, out);
+    }
 }
 
 }  // namespace
@@ -321,13 +338,22 @@ double crossing_of(const Bernstein<N>& p) {
 
 template <int N>
 void find_roots(const Bernstein<N>& p, double noise, RootList<N>& out) {
+    const bool same = (p[0] < 0.0) == (p[N] < 0.0);
+    if constexpr (N >= kOutweighedFrom) {
+        if (same && is_outweighed<N>(p, noise)) {
+            out.count = 0;
+            return;
+        }
+    }
     double least, most;
     extremes<N>(p, least, most);
     if ((least > noise) | (most < -noise)) {
         out.count = 0;
-        return;
+    } else if (same) {
+        find_none_or_more<N>(p, noise, least, most, out);
+    } else {
+        find_one_or_more<N>(p, noise, least, most, out);
     }
-    find_unclear<N>(p, noise, least, most, out);
 }
 
 #define RAYMO_DEGREE(N)                                  \

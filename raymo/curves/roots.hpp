@@ -37,12 +37,12 @@ struct RootList {
 /// - a touch is told where p comes too near to zero for its sign to be known, and has the same sign on both sides.
 /// There are at most N crossings and N + 2 touches. If a coefficient or `noise` is NaN or infinite or noise < 0, all of
 /// [0, 1] is one crossing or touch, or nothing. Defined for N = 1..10.
-/// Cost: N comparisons for most polynomials without roots, some 100 ns a root, 400 ns a near-double pair.
+/// Cost, of degree 6: 5 ns for most polynomials without roots, some 100 ns a root, 280 ns a near-double pair.
 template <int N>
 void find_roots(const Bernstein<N>& p, double noise, RootList<N>& out);
 
 /// The one place in [0, 1] where p, which has different signs at 0 and 1 and one crossing between them, crosses zero; to
-/// the last bit that its values allow. In [0, 1] unless a coefficient is NaN. Cost: four evaluations, 100 ns.
+/// the last bit that its values allow. In [0, 1] unless a coefficient is NaN. Cost: 60 to 90 ns.
 template <int N>
 [[nodiscard]] double crossing_of(const Bernstein<N>& p);
 

@@ -387,6 +387,16 @@ TEST_CASE("numbers that are none, and very large ones, have a defined answer") {
     CHECK(told<3>({1e308, -1e308, 1e308, -1e308}, 0.0) == "X0.5-");
     CHECK(told<3>({-1e-308, -1e308, 1e308, -1e-308}, 0.0).substr(0, 5) == "X0.5+");
     CHECK(told<2>({5e-324, -5e-324, 5e-324}, 0.0).substr(0, 1) == "T");
+    for (const double bad : {nan, infinity, -infinity}) {
+        for (std::size_t i = 0; i <= 6; ++i) {
+            Bernstein<6> p{1, 1, -0.1, 1, 1, 1, 1};
+            p[i] = bad;
+            RootList<6> list;
+            find_roots<6>(p, 0.0, list);
+            REQUIRE(list.count <= 1);
+            for (const Root& root : list) CHECK(root.u == 0.5);
+        }
+    }
     for (const double u : {crossing_of<3>({nan, nan, nan, nan}), crossing_of<3>({1, 1, 1, 1})})
         CHECK_FALSE(u > 1.0);
 }

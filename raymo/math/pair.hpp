@@ -16,4 +16,10 @@ using Pair = double __attribute__((vector_size(16)));
 [[nodiscard]] RAYMO_INLINE Pair pair_min(Pair a, Pair b) { return a < b ? a : b; }
 [[nodiscard]] RAYMO_INLINE Pair pair_max(Pair a, Pair b) { return a > b ? a : b; }
 
+[[nodiscard]] RAYMO_INLINE Pair pair_abs(Pair a) {
+    using Bits = long long __attribute__((vector_size(16)));
+    constexpr long long kAllButSign = 0x7fffffffffffffff;
+    return reinterpret_cast<Pair>(reinterpret_cast<Bits>(a) & Bits{kAllButSign, kAllButSign});
+}
+
 }  // namespace raymo

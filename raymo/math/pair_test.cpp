@@ -31,6 +31,8 @@ TEST_CASE("pairs compute what their numbers compute, bit for bit") {
             const Pair most = pair_max(x, y);
             CHECK(same(most[0], lane_max(a, b)));
             CHECK(same(most[1], lane_max(b, 0.1)));
+            CHECK(same(pair_abs(x)[0], std::fabs(a)));
+            CHECK(same(pair_abs(x)[1], std::fabs(b)));
             CHECK(same(swapped(x)[0], b));
             CHECK(same(swapped(x)[1], a));
             CHECK(same(pair_of(a)[1], a));
