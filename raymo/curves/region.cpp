@@ -150,7 +150,7 @@ Result<RegionPtr> Region::make(const Outline& outline, Vec2 centre, double scale
         }
         if (!curve.closed) {
             return fail(ErrorCode::bad_argument, "the contour is not closed",
-                        "close it with `closed: true`");
+                        "close it with `closed: true`, or an arc with chain([...], closed: true)");
         }
         region->add_curve(curve, centre, scale, beside_axis);
     }

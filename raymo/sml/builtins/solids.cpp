@@ -87,9 +87,11 @@ bool take(Call& call, const solids::Param& param, std::size_t slot, std::size_t 
         case solids::ParamKind::profile:
             if (!call.contour(slot, contour)) return false;
             if (param.kind == solids::ParamKind::contour && curves::is_open(contour)) {
-                return call.fail(slot, ErrorCode::bad_argument,
-                                 fmt::format("the {} must be closed", param.words),
-                                 "close it with `closed: true`", "this curve is open");
+                return call.fail(
+                    slot, ErrorCode::bad_argument,
+                    fmt::format("the {} must be closed", param.words),
+                    "close it with `closed: true`, or an arc with chain([...], closed: true)",
+                    "this curve is open");
             }
             return true;
         case solids::ParamKind::path: {
