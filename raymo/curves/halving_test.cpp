@@ -22,10 +22,10 @@ TEST_CASE("halves are those of de Casteljau's construction, times 2^N") {
             CHECK(low[i] == std::ldexp(left[i], N));
             CHECK(high[i] == std::ldexp(right[i], N));
         }
-        CHECK(halves.least[0] == *std::min_element(low.begin(), low.end()));
-        CHECK(halves.least[1] == *std::min_element(high.begin(), high.end()));
-        CHECK(halves.most[0] == *std::max_element(low.begin(), low.end()));
-        CHECK(halves.most[1] == *std::max_element(high.begin(), high.end()));
+        CHECK(double{halves.least[0]} == *std::min_element(low.begin(), low.end()));
+        CHECK(double{halves.least[1]} == *std::min_element(high.begin(), high.end()));
+        CHECK(double{halves.most[0]} == *std::max_element(low.begin(), low.end()));
+        CHECK(double{halves.most[1]} == *std::max_element(high.begin(), high.end()));
     };
     for (int k = 0; k < 100; ++k) {
         check(std::integral_constant<int, 1>());
