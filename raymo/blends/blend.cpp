@@ -153,10 +153,7 @@ bool shows_alike(const Body& body, csg::MaterialId material) {
 /// Whether a tube is nowhere where something is taken away for another.
 bool stands_apart(const RoundedRing& ring, const std::vector<RoundedRing>& others) {
     const auto is_clear = [](const RoundedRing& tube, const RoundedRing& sectors) {
-        const Aabb box = csg::bounds(tube.tube);
-        return std::all_of(
-            sectors.sectors.begin(), sectors.sectors.end(),
-            [&](const csg::Solid& s) { return overlap(box, csg::bounds(s)).empty(); });
+        return overlap(csg::bounds(tube.tube), csg::bounds(sectors.sectors)).empty();
     };
     return std::all_of(others.begin(), others.end(), [&](const RoundedRing& other) {
         return is_clear(ring, other) && is_clear(other, ring);
@@ -167,7 +164,7 @@ csg::Solid rounded_off(csg::Solid solid, std::vector<RoundedRing> rings, SourceS
     std::vector<csg::Solid> cut{std::move(solid)};
     std::vector<csg::Solid> joined(1);
     for (RoundedRing& ring : rings) {
-        for (csg::Solid& sector : ring.sectors) cut.push_back(std::move(sector));
+        cut.push_back(std::move(ring.sectors));
         joined.push_back(std::move(ring.tube));
     }
     joined[0] = csg::boolean(csg::Op::difference, std::move(cut), span);

@@ -12,6 +12,7 @@ using test::cone;
 using test::cylinder;
 using test::kPi;
 using test::made;
+using test::mapped;
 using test::move;
 using test::near;
 using test::Traced;
@@ -145,6 +146,29 @@ TEST_CASE("crossings: the rims of a bore are rounded by joining the tubes") {
         const Vec3 way = unit(to_post * part + Vec3{-1, 0, 0} * (1.0 - part));
         CHECK(traced.first(centre + way * (3.0 * r), -way) == near(2.0 * r));
     }
+}
+
+TEST_CASE("crossings: no sliver stays where sectors fold") {
+    // Of 1,000 random pairs; sectors cut into stretches leave one here.
+    const Affine pipe{Mat3{{Vec3{0.28070230260849482, -0.78884074695385853, -0.54675085117040978},
+                            Vec3{0.85739701222289577, 0.46211435512129451, -0.22654069440628488},
+                            Vec3{0.43136594759153224, -0.40519205166946304, 0.80606626310890284}}},
+                      {0.51279319562827674, -0.19727181763329149, -0.72554646884883578}};
+    const Affine ring{Mat3{{Vec3{0.63976985060297342, -0.4305940868573358, -0.63661862258572521},
+                            Vec3{0.3136179869002188, 0.90248149649913334, -0.29524719603975741},
+                            Vec3{0.70166822398631046, -0.010764796337222882, 0.71242250287853404}}},
+                      {-0.25205003728089581, -0.84315257002428834, 0.4222225646434743}};
+    const csg::Solid solid =
+        blended(csg::Op::difference,
+                {mapped(made("cylinder", {1.6346178158851319, 64.0, true}), pipe),
+                 mapped(test::torus(0.87913174779802006, 0.6014380761825141), ring)},
+                ball(0.15490477804240296), 1);
+    CHECK(is_rounded_off(solid));
+    const Vec3 at{-1.4568861465080367, -0.27218079788969235, -0.26798050611087665};
+    Traced traced(solid);
+    CHECK(traced.where(at) == solids::Where::out);
+    const Vec3 way = unit(Vec3{0.7023, 0.04796, -0.7103});
+    CHECK(traced.along(at - way, way).size() == 2);
 }
 
 TEST_CASE("crossings: nothing else is taken away where a rim is rounded") {

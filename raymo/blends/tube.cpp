@@ -15,10 +15,6 @@ namespace {
 constexpr double kTube = 0x1p-30;
 /// How far the tube goes on beyond the wedge, as part of the radius: its ends cut nothing.
 constexpr double kSpare = 0x1p-4;
-/// Sectors along a ring that is cut away: each so long, in radii, but at least so many and at most.
-constexpr double kStretch = 8.0;
-constexpr std::size_t kLeastStretches = 4, kMostStretches = 32;
-
 Failure lost() {
     return fail(ErrorCode::out_of_range, "no ball of this radius rolls along the whole edge");
 }
@@ -159,21 +155,10 @@ Result<std::optional<RoundedRing>> rounded_ring(const Body& body, const Segment&
                                                 double radius, SourceSpan span) {
     if (!segment.space || !segment.is_closed || !segment.is_convex) return std::nullopt;
     const Spine spine(body, segment, radius);
-    const double length = segment.hi - segment.lo;
-    const auto stretches = static_cast<std::size_t>(
-        std::clamp(length / (kStretch * radius), static_cast<double>(kLeastStretches),
-                   static_cast<double>(kMostStretches)));
-    const auto place = [&](std::size_t i) {
-        return segment.lo + length * (static_cast<double>(i) / static_cast<double>(stretches));
-    };
     RoundedRing out;
-    for (std::size_t i = 0; i < stretches; ++i) {
-        auto sector =
-            sector_solid(spine, place(i) - kBeyond * radius, place(i + 1) + kBeyond * radius, span);
-        if (!sector) return std::nullopt;
-        if (!is_free_beyond(body, segment, csg::bounds(*sector))) return std::nullopt;
-        out.sectors.push_back(std::move(*sector));
-    }
+    auto sectors = sector_solid(spine, segment.lo, segment.hi, span);
+    if (!sectors || !is_free_beyond(body, segment, csg::bounds(*sectors))) return std::nullopt;
+    out.sectors = std::move(*sectors);
     // Off by half of what it may be, and smaller by the other half: nowhere outside of the body.
     constexpr double kHalf = 0.5 * kTube;
     auto ball = tube(spine, segment.lo, segment.hi, kHalf * radius, (1.0 - kHalf) * radius, span);

@@ -5,13 +5,12 @@
 //
 // A body B is rounded by taking the wedge away. Of a ring of its edge this can be put another way: with sectors S and the tube T,
 //     B - (S - T)  =  (B - S) + T,
-// since the ball rolls within B. Rays find the first surface of the right side much sooner: what is taken away from B are plain leaves,
-// several of them along the ring, with small boxes, and the tube is another leaf of the union. But S goes on beyond the
-// faces, and no other part of B may be there.
+// since the ball rolls within B. Rays find the first surface of the right side much sooner: it is a union of plain products. But S
+// goes on beyond the faces, and no other part of B may be there. (S stays whole: near the edge its surface may fold, and what
+// two stretches of it hold at their common end need not be what the whole does.)
 #pragma once
 
 #include <optional>
-#include <vector>
 
 #include "raymo/blends/segment.hpp"
 
@@ -24,7 +23,7 @@ namespace raymo::blends {
 
 /// A convex edge that runs back into itself, rounded: what is taken away from the body, and what is joined to the rest.
 struct RoundedRing {
-    std::vector<csg::Solid> sectors;
+    csg::Solid sectors;
     csg::Solid tube;
 };
 /// Of a segment along a curve in space. Empty where it is no such edge, or something may be beyond its faces: there is only the

@@ -173,7 +173,13 @@ private:
         std::vector<std::uint32_t> all = product.core;
         all.insert(all.end(), product.cutters.begin(), product.cutters.end());
         const bool can_be_cut = all_in_lanes(product.cutters) && !product.cutters.empty();
-        const std::size_t most = product.cutters.empty() ? kMostInUnit : kMostTogether;
+        // To ask several curved ones costs more than to look at their boxes.
+        const auto costly = std::count_if(
+            product.cutters.begin(), product.cutters.end(),
+            [&](std::uint32_t l) { return data_.frames[solid_.leaves[l].frame].in_blocks; });
+        const std::size_t most = product.cutters.empty() ? kMostInUnit
+                                 : costly > 1            ? 0
+                                                         : kMostTogether;
         if (!product.has_union && !product.core.empty() && all.size() <= most &&
             few_spans(product.core) && all_in_lanes(product.cutters)) {
             product.cutters.clear();
