@@ -155,18 +155,6 @@ Shape shape_of(const curves::Piece& piece) {
     return {Shape::circle, centre, radius, area > 0.0 ? 1.0 : -1.0};
 }
 
-/// +1 where the region lies to the left of a piece, and so within a circle that is run counter-clockwise; 0 where both
-/// sides are alike.
-double left_side(const curves::Region& region, const curves::Piece& piece) {
-    const Vec2 at = curves::point_at(piece, 0.5);
-    const Vec2 t = curves::tangent(piece, 0.5);
-    const double length = norm(piece.point(3) - piece.point(0));
-    const Vec2 step = Vec2{-t.y, t.x} * (0x1p-20 * length / norm(t));
-    const bool left = region.where(at + step, {}) == curves::Side::in;
-    const bool right = region.where(at - step, {}) == curves::Side::in;
-    return left == right ? 0.0 : (left ? 1.0 : -1.0);
-}
-
 /// The outward normal of a straight piece.
 Vec2 normal_of(const curves::Piece& piece, double left) {
     const Vec2 d = piece.point(3) - piece.point(0);
@@ -185,7 +173,7 @@ void add_runs(const curves::Region& region, const std::vector<bool>& is_free, Fa
     std::vector<bool> done(pieces.size(), false);
     const auto take = [&](std::size_t first) {
         std::vector<curves::Span2> spans;
-        const double left = left_side(region, pieces[first]);
+        const double left = region.left_side(pieces[first]);
         std::size_t i = first;
         do {
             done[i] = true;
@@ -216,7 +204,7 @@ void leaning_walls(const solids::ContourSweep& kernel, Faces& faces) {
     if (kernel.ratio() > 0.0) faces.plane({0, 0, 1}, {0, 0, 1}, "top");
     const double ratio = kernel.ratio();
     for (const curves::Piece& piece : kernel.region().pieces()) {
-        const double left = left_side(kernel.region(), piece);
+        const double left = kernel.region().left_side(piece);
         if (left == 0.0) continue;
         const Shape shape = shape_of(piece);
         const Vec2 a = piece.point(0);
@@ -245,7 +233,7 @@ void walls(const solids::ContourSweep& kernel, Faces& faces) {
     std::vector<bool> is_free(pieces.size(), false);
     for (std::size_t i = 0; i < pieces.size(); ++i) {
         const curves::Piece& piece = pieces[i];
-        const double left = left_side(kernel.region(), piece);
+        const double left = kernel.region().left_side(piece);
         if (left == 0.0) continue;
         const Shape shape = shape_of(piece);
         if (shape.kind == Shape::line) {
@@ -274,7 +262,7 @@ void turned_walls(const solids::Revolve::Kernel& kernel, Faces& faces) {
     std::vector<bool> is_free(pieces.size(), false);
     for (std::size_t i = 0; i < pieces.size(); ++i) {
         const curves::Piece& piece = pieces[i];
-        const double left = left_side(kernel.region(), piece);
+        const double left = kernel.region().left_side(piece);
         if (left == 0.0) continue;
         const Shape shape = shape_of(piece);
         const Vec2 a = piece.point(0);

@@ -154,7 +154,7 @@ RAYMO_INLINE double zero_by_fourth_order(const Bernstein<N>& c, double lo, doubl
         const double step = n + n * bend;
         const double next = s - step;
         const double size = std::fabs(step);
-        // What is left is the next term of (2), 5 z^3 - 5 z w and one that is known from the last step, times this step.
+        // What is left is the next term of (1), 5 z^3 - 5 z w and one that is known from the last step, times this step.
         const double shrinks = size / before;
         const double squared = shrinks * shrinks;
         const double rest = size * (5.0 * std::fabs(z) * (zz + std::fabs(w)) + squared * squared);

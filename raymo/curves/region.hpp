@@ -82,6 +82,8 @@ public:
 
     /// `on` when the boundary comes within `e` of p in x and in y.
     [[nodiscard]] Side where(Vec2 p, Vec2 e) const;
+    /// +1 where the region lies to the left of one of its pieces, -1 to the right; 0 where both sides are alike.
+    [[nodiscard]] double left_side(const Piece& piece) const;
     /// The largest n.p of all points p of the curves: a bound for the region's, and exact unless a curve lies inside.
     [[nodiscard]] double support(Vec2 n) const;
     /// A normal, to the right of the curve, at the point nearest to p of the stretches that have number `run` when they are

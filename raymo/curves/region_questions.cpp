@@ -147,13 +147,18 @@ bool Region::is_flat() const {
     // Mostly the area tells; of a figure of eight it may be 0.
     const Vec2 size = box().size();
     if (std::fabs(signed_area()) > 0x1p-40 * size.x * size.y) return false;
-    return std::all_of(pieces_.begin(), pieces_.end(), [this](const Piece& piece) {
-        const Vec2 at = point_at(piece, 0.5);
-        const Vec2 t = tangent(piece, 0.5);
-        const double long_side = max_norm(piece.point(3) - piece.point(0));
-        const Vec2 step = Vec2{-t.y, t.x} * (0x1p-20 * long_side / norm(t));
-        return where(at + step, {}) == where(at - step, {});
-    });
+    return std::all_of(pieces_.begin(), pieces_.end(),
+                       [this](const Piece& piece) { return left_side(piece) == 0.0; });
+}
+
+double Region::left_side(const Piece& piece) const {
+    const Vec2 at = point_at(piece, 0.5);
+    const Vec2 t = tangent(piece, 0.5);
+    const double length = norm(piece.point(3) - piece.point(0));
+    const Vec2 step = Vec2{-t.y, t.x} * (0x1p-20 * length / norm(t));
+    const bool left = where(at + step, {}) == Side::in;
+    const bool right = where(at - step, {}) == Side::in;
+    return left == right ? 0.0 : (left ? 1.0 : -1.0);
 }
 
 double Region::signed_area() const {
