@@ -217,6 +217,45 @@ bool Rolled::is_of_edge(RealVec centre) const {
     return true;
 }
 
+std::optional<RealVec> Rolled::polished_foot(RealVec x, RealVec y) const {
+    // p = r, q = r, and x in the plane across.
+    const auto residual = [&](RealVec at) {
+        return RealVec{p_.distance(at) - r_, q_.distance(at) - r_,
+                       dot(at - x, cross(p_.gradient(at), q_.gradient(at)))};
+    };
+    for (int i = 0; i < 30; ++i) {
+        const RealVec f = residual(y);
+        const RealVec across = cross(p_.gradient(y), q_.gradient(y));
+        // The third equation's gradient by differences; its terms with x change slowly.
+        const Real h = 1e-7L * r_;
+        RealVec slope;
+        slope.x = (residual(y + RealVec{h, 0, 0}).z - residual(y - RealVec{h, 0, 0}).z) / (2 * h);
+        slope.y = (residual(y + RealVec{0, h, 0}).z - residual(y - RealVec{0, h, 0}).z) / (2 * h);
+        slope.z = (residual(y + RealVec{0, 0, h}).z - residual(y - RealVec{0, 0, h}).z) / (2 * h);
+        const auto step =
+            solved(p_.gradient(y), q_.gradient(y), norm(slope) > 0 ? slope : across, f * Real{-1});
+        if (!step) return std::nullopt;
+        y = y + *step;
+        if (norm(*step) <= 64 * kRounding * size_) return y;
+    }
+    return std::nullopt;
+}
+
+RealVec Rolled::approached(RealVec x, RealVec y) const {
+    Real step = r_ / 16;
+    while (step > 1e-9L * r_) {
+        const RealVec way = unit(cross(p_.gradient(y), q_.gradient(y)));
+        const Real sense = dot(x - y, way) < 0 ? -1 : 1;
+        const auto next = nearby(y + way * (sense * step), r_);
+        if (next && norm(*next - x) < norm(y - x)) {
+            y = *next;
+        } else {
+            step /= 2;
+        }
+    }
+    return y;
+}
+
 std::optional<Rolled::Nearest> Rolled::on_spine(RealVec x) const {
     std::optional<Nearest> best;
     const auto beside = spines_.size() == 1 ? nearby(x, r_) : std::nullopt;
@@ -234,31 +273,13 @@ std::optional<Rolled::Nearest> Rolled::on_spine(RealVec x) const {
             near = norm(*beside - x);
             y = *beside;
         }
-        // p = r, q = r, and x in the plane across.
-        const auto residual = [&](RealVec at) {
-            return RealVec{p_.distance(at) - r_, q_.distance(at) - r_,
-                           dot(at - x, cross(p_.gradient(at), q_.gradient(at)))};
-        };
-        bool is_found = false;
-        for (int i = 0; i < 30 && !is_found; ++i) {
-            const RealVec f = residual(y);
-            const RealVec across = cross(p_.gradient(y), q_.gradient(y));
-            // The third equation's gradient by differences; its terms with x change slowly.
-            const Real h = 1e-7L * r_;
-            RealVec slope;
-            slope.x =
-                (residual(y + RealVec{h, 0, 0}).z - residual(y - RealVec{h, 0, 0}).z) / (2 * h);
-            slope.y =
-                (residual(y + RealVec{0, h, 0}).z - residual(y - RealVec{0, h, 0}).z) / (2 * h);
-            slope.z =
-                (residual(y + RealVec{0, 0, h}).z - residual(y - RealVec{0, 0, h}).z) / (2 * h);
-            const auto step = solved(p_.gradient(y), q_.gradient(y),
-                                     norm(slope) > 0 ? slope : across, f * Real{-1});
-            if (!step) break;
-            y = y + *step;
-            is_found = norm(*step) <= 64 * kRounding * size_;
+        auto foot = polished_foot(x, y);
+        // From a start that is next to a centre of curvature the steps may lead to another foot, farther away.
+        if (!foot || norm(*foot - x) > near + 1e-6L * r_) {
+            foot = polished_foot(x, approached(x, y));
+            if (!foot || norm(*foot - x) > near + 1e-6L * r_) continue;
         }
-        if (!is_found || norm(y - x) > near + 1e-6L * r_) continue;
+        y = *foot;
         if (norm(y - x) < least) {
             least = norm(y - x);
             best = Nearest{y, s};

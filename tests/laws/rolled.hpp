@@ -97,6 +97,10 @@ public:
     [[nodiscard]] std::optional<Nearest> on_spine(RealVec x) const;
 
 private:
+    /// The foot of x on a spine that Newton's method finds from y.
+    [[nodiscard]] std::optional<RealVec> polished_foot(RealVec x, RealVec y) const;
+    /// Where steps along the spine from y, which is on it, come nearest to x.
+    [[nodiscard]] RealVec approached(RealVec x, RealVec y) const;
     [[nodiscard]] bool is_between_contacts(RealVec x, RealVec centre) const;
     [[nodiscard]] std::optional<RealVec> solve(const RealSection& section, Real r,
                                                RealVec start) const;
