@@ -78,8 +78,8 @@ public:
 
     /// The same answers, bit for bit, for the rays of a packet that `lanes` (not 0) names, one bit each; faster when they
     /// are close. (Only where a ray runs in the boundary of a leaf that has no part in the answer may the two differ, by less
-    /// than their errors: a single ray is moved aside there, a packet may not have looked at the leaf.) The other lanes may
-    /// hold anything. first_hits: returns the rays whose lane of `hits` is set.
+    /// than their errors: a single ray is moved aside there, a packet may not have looked at the leaf. What the ray only grazes
+    /// may then be met by one and missed by the other.) The other lanes may hold anything. first_hits: returns the rays whose lane of `hits` is set.
     std::uint32_t first_hits(const RayPacket& rays, std::uint32_t lanes, HitPacket& hits);
     /// Returns the rays that are occluded.
     std::uint32_t occluded(const RayPacket& rays, std::uint32_t lanes);
