@@ -64,14 +64,12 @@ TEST_CASE("the number of crossings has the parity that the signs at the ends ask
         if (random() % 4 == 0) p[random() % 7] = 0.0;
         RootList<6> list;
         find_roots<6>(p, 1e-17, list);
-        int crossings = 0;
         bool negative = p[0] < 0.0;
         double last = -1.0;
         for (const Root& root : list) {
             CHECK(root.lo >= last - 1e-12);
             last = root.lo;
             if (!root.crosses) continue;
-            ++crossings;
             CHECK(root.rises == negative);
             negative = !negative;
             CHECK(std::fabs(value_at(p, root.u)) <= 1e-12);

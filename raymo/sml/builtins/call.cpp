@@ -22,6 +22,20 @@ bool is_vector2(const Value& value, Vec2& out) {
     return true;
 }
 
+std::string kind_and_size(const Value& value) {
+    return value.is(Tag::list) ? fmt::format("a list of {}", value.items().size())
+                               : std::string(kind_text(value));
+}
+
+std::string numbers_text(const Value& value) {
+    if (value.is(Tag::list)) {
+        for (const Value& item : value.items()) {
+            if (!item.is(Tag::number)) return fmt::format("a list with {} in it", kind_text(item));
+        }
+    }
+    return kind_and_size(value);
+}
+
 bool is_vector(const Value& value, Vec3& out) {
     if (!value.is(Tag::list) || value.items().size() != 3) return false;
     for (std::size_t i = 0; i < 3; ++i) {
@@ -130,9 +144,9 @@ bool Call::flag(std::size_t i, bool& out) {
 bool Call::vector(std::size_t i, Vec3& out) {
     if (has(i) && is_vector(slots_[i], out)) return true;
     if (has(i) && slots_[i].is(Tag::list)) {
-        return fail(
-            i, ErrorCode::bad_argument, fmt::format("{} must be three numbers", argument_name(i)),
-            "write it as (x, y, z)", fmt::format("this is a list of {}", slots_[i].items().size()));
+        return fail(i, ErrorCode::bad_argument,
+                    fmt::format("{} must be three numbers", argument_name(i)),
+                    "write it as (x, y, z)", "this is " + numbers_text(slots_[i]));
     }
     return wrong_kind(i, "three numbers", "write it as (x, y, z)");
 }
@@ -204,7 +218,7 @@ bool Call::vector2(std::size_t i, Vec2& out) {
     if (has(i) && slots_[i].is(Tag::list)) {
         return fail(i, ErrorCode::bad_argument,
                     fmt::format("{} must be two numbers", argument_name(i)), "write it as (x, y)",
-                    fmt::format("this is a list of {}", slots_[i].items().size()));
+                    "this is " + numbers_text(slots_[i]));
     }
     return wrong_kind(i, "two numbers", "write it as (x, y)");
 }
@@ -220,12 +234,10 @@ bool Call::points(std::size_t i, std::vector<Vec2>& out) {
     for (std::size_t k = 0; k < items.size(); ++k) {
         Vec2 p;
         if (!is_vector2(items[k], p)) {
-            const bool is_list = items[k].is(Tag::list);
             return fail(i, ErrorCode::bad_argument,
                         fmt::format("{} must be a list of points of two numbers", argument_name(i)),
                         "a point is written (x, y)",
-                        is_list ? fmt::format("[{}] is a list of {}", k, items[k].items().size())
-                                : fmt::format("[{}] is {}", k, kind_text(items[k])));
+                        fmt::format("[{}] is {}", k, numbers_text(items[k])));
         }
         out.push_back(p);
     }

@@ -118,6 +118,10 @@ bool spline_ends(Call& call, std::size_t i, curves::SplineForm& form);
 [[nodiscard]] std::string operand_label(const Value& value, bool is_in_list);
 /// Two numbers of a list; false when it is something else.
 [[nodiscard]] bool is_vector2(const Value& value, Vec2& out);
+/// What a value is, for the label of an error: its kind, or how long a list it is.
+[[nodiscard]] std::string kind_and_size(const Value& value);
+/// The same for what should be a list of numbers: what else there is in it comes first.
+[[nodiscard]] std::string numbers_text(const Value& value);
 /// Three numbers of a list; false when it is something else.
 [[nodiscard]] bool is_vector(const Value& value, Vec3& out);
 /// A CSS colour name or "#rgb", "#rrggbb"; components 0..1 in sRGB.

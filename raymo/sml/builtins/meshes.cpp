@@ -21,11 +21,6 @@ bool finish(Call& call, Result<meshes::Mesh> made, std::initializer_list<std::si
     return call.evaluator().made(std::move(*made), call.node(), out);
 }
 
-std::string what(const Value& value) {
-    return value.is(Tag::list) ? fmt::format("a list of {}", value.items().size())
-                               : std::string(kind_text(value));
-}
-
 /// A list of points of three numbers; `where` is what errors call it.
 bool points_of(Call& call, std::size_t i, const Value& value, const std::string& where,
                std::vector<Vec3>& out) {
@@ -43,7 +38,7 @@ bool points_of(Call& call, std::size_t i, const Value& value, const std::string&
         return call.fail(i, ErrorCode::bad_argument,
                          fmt::format("{} must be a list of points of three numbers", where),
                          "a point is written (x, y, z)",
-                         fmt::format("[{}] is {}", k, what(items[k])));
+                         fmt::format("[{}] is {}", k, numbers_text(items[k])));
     }
     return call.evaluator().worked(static_cast<double>(items.size()), call.node());
 }
@@ -71,9 +66,10 @@ bool mesh(Call& call, Value& out) {
             }
         }
         if (good) continue;
-        return call.fail(
-            1, ErrorCode::bad_argument, "`faces` must be a list of lists of numbers of points",
-            "a face is written [0, 1, 2, 3]", fmt::format("[{}] is {}", f, what(items[f])));
+        return call.fail(1, ErrorCode::bad_argument,
+                         "`faces` must be a list of lists of numbers of points",
+                         "a face is written [0, 1, 2, 3]",
+                         fmt::format("[{}] is {}", f, kind_and_size(items[f])));
     }
     return call.evaluator().worked(corners, call.node()) &&
            finish(call, meshes::make_mesh(std::move(points), faces), {0, 1}, out);
@@ -261,7 +257,7 @@ bool crease(Call& call, Value& out) {
             fmt::format("the points have the numbers 0 to {}", mesh.points.size() - 1),
             is_vector2(items[k], pair)
                 ? fmt::format("[{}] is ({}, {})", k, number_text(pair.x), number_text(pair.y))
-                : fmt::format("[{}] is {}", k, what(items[k])));
+                : fmt::format("[{}] is {}", k, numbers_text(items[k])));
     }
     return finish(call, meshes::creased(std::move(mesh), edges), {0, 1}, out);
 }
@@ -280,7 +276,7 @@ bool warp(Call& call, Value& out) {
         if (!is_vector(moved, to)) {
             return call.fail(1, ErrorCode::bad_argument, "the function must give a point",
                              "write fn(p) (p.x, p.y, 2 * p.z)",
-                             fmt::format("it gave {}", what(moved)));
+                             fmt::format("it gave {}", numbers_text(moved)));
         }
         if (!(max_norm(to) <= meshes::kLargestPoint)) {
             return call.fail(1, ErrorCode::out_of_range,
@@ -312,14 +308,15 @@ bool take_nets(Call& call, std::size_t slot, meshes::NetsPtr& out) {
         };
         const std::string name = fmt::format("[{}]", n);
         if (!items[n].is(Tag::list) || items[n].items().size() != 4)
-            return refuse(fmt::format("{} is {}", name, what(items[n])));
+            return refuse(fmt::format("{} is {}", name, kind_and_size(items[n])));
         for (std::size_t i = 0; i < 4; ++i) {
             const Value& row = items[n].items()[i];
             if (!row.is(Tag::list) || row.items().size() != 4)
-                return refuse(fmt::format("{}[{}] is {}", name, i, what(row)));
+                return refuse(fmt::format("{}[{}] is {}", name, i, kind_and_size(row)));
             for (std::size_t j = 0; j < 4; ++j) {
                 if (is_vector(row.items()[j], nets[n][4 * i + j])) continue;
-                return refuse(fmt::format("{}[{}][{}] is {}", name, i, j, what(row.items()[j])));
+                return refuse(
+                    fmt::format("{}[{}][{}] is {}", name, i, j, numbers_text(row.items()[j])));
             }
         }
         if (!call.evaluator().step(call.node())) return false;

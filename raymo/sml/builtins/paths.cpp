@@ -45,11 +45,6 @@ std::string point_hint(const Value& value, bool has_radius) {
     return has_radius ? "a point is written (x, y, z)" : "a point is written (x, y, z, r)";
 }
 
-std::string what(const Value& value) {
-    return value.is(Tag::list) ? fmt::format("a list of {}", value.items().size())
-                               : std::string(kind_text(value));
-}
-
 // path(points, radius: r), path([(x, y, z, r), ...])
 bool path(Call& call, Value& out) {
     static constexpr auto kKinds =
@@ -86,7 +81,7 @@ bool path(Call& call, Value& out) {
                                     : "`points` must be a list of points of three numbers and a "
                                       "radius",
                          point_hint(items[k], has_radius),
-                         fmt::format("[{}] is {}", k, what(items[k])));
+                         fmt::format("[{}] is {}", k, numbers_text(items[k])));
     }
     return call.evaluator().worked(static_cast<double>(items.size()), call.node()) &&
            finish(call, curves::spline_path(points, form), {0, 3}, out);
@@ -146,7 +141,7 @@ bool path_from(Call& call, Value& out) {
         return fail(Error{ErrorCode::bad_argument,
                           has_radius ? "the function must give three numbers"
                                      : "the function must give three numbers and a radius",
-                          fmt::format("it gave {} for {}", what(given), number_text(t)),
+                          fmt::format("it gave {} for {}", numbers_text(given), number_text(t)),
                           point_hint(given, has_radius),
                           0,
                           {}});

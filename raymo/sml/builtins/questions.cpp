@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "raymo/sml/builtins/call.hpp"
+#include "raymo/sml/builtins/box.hpp"
 
 namespace raymo::sml {
 namespace {
@@ -21,30 +21,17 @@ bool unanswered(Call& call) {
     return call.fail(ErrorCode::not_available, "questions that need rays can not be answered here");
 }
 
-Value pair(Vec2 p) { return Value::list({Value::number(p.x), Value::number(p.y)}); }
-
 bool bounds(Call& call, Value& out) {
-    if (call.has(0) && call[0].is(Tag::contour)) {
-        const Box2 box = curves::box_of(call[0].as<ContourObject>().value);
-        if (box.empty()) return call.fail(0, ErrorCode::empty, "the contour is empty");
-        out = record(call, {{"min", pair(box.lo)},
-                            {"max", pair(box.hi)},
-                            {"size", pair(box.size())},
-                            {"center", pair(box.centre())}});
-        return call.evaluator().worked(1000.0, call.node());
-    }
-    csg::Solid solid;
-    if (!call.solid(0, solid)) return false;
-    const Aabb box = csg::bounds(solid);
-    if (box.empty()) return call.fail(0, ErrorCode::empty, "the solid is empty");
-    if (!box.bounded()) {
-        return call.fail(0, ErrorCode::unbounded, "the solid has no finite size",
-                         "intersect it with a block first");
-    }
-    out = record(call, {{"min", Value::vector(box.lo)},
-                        {"max", Value::vector(box.hi)},
-                        {"size", Value::vector(box.size())},
-                        {"center", Value::vector(box.centre())}});
+    const bool is_plane = call.has(0) && call[0].is(Tag::contour);
+    Aabb box;
+    if (!box_of(call, 0, box)) return false;
+    const auto point = [&](Vec3 p) {
+        return is_plane ? Value::list({Value::number(p.x), Value::number(p.y)}) : Value::vector(p);
+    };
+    out = record(call, {{"min", point(box.lo)},
+                        {"max", point(box.hi)},
+                        {"size", point(box.size())},
+                        {"center", point(box.centre())}});
     return true;
 }
 
@@ -108,7 +95,8 @@ bool hits(Call& call, Value& out) {
 
 std::span<const BuiltinRow> question_rows() {
     static constexpr auto kRows = std::to_array<BuiltinRow>({
-        {"bounds", "s", &bounds, "The box around a solid or a contour: {min, max, size, center}."},
+        {"bounds", "s", &bounds,
+         "The box around a solid, a contour, a path or a mesh: {min, max, size, center}."},
         {"contains", "s p", &contains, "True when the point is in the solid or on its boundary."},
         {"hits", "s origin direction", &hits,
          "Where a line is inside: {enter, exit, enter_point, ...} in order."},

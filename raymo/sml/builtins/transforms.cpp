@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "raymo/sml/builtins/box.hpp"
 #include "raymo/sml/builtins/image.hpp"
 #include "raymo/sml/text.hpp"
 
@@ -218,23 +219,6 @@ bool transform(Call& call, Value& out) {
     return to_affine(call, 1, map) && apply(call, call[0], map, 1, out);
 }
 
-// The box of a solid, which must have a finite size, or of a contour.
-bool box_of(Call& call, std::size_t i, Aabb& out) {
-    if (call.has(i) && call[i].is(Tag::contour)) {
-        const Box2 box = curves::box_of(call[i].as<ContourObject>().value);
-        if (box.empty()) return call.fail(i, ErrorCode::empty, "the contour is empty");
-        out = {{box.lo.x, box.lo.y, 0.0}, {box.hi.x, box.hi.y, 0.0}};
-        return call.evaluator().worked(1000.0, call.node());
-    }
-    csg::Solid solid;
-    if (!call.solid(i, solid)) return false;
-    out = csg::bounds(solid);
-    if (out.empty()) return call.fail(i, ErrorCode::empty, "the solid is empty");
-    if (out.bounded()) return true;
-    return call.fail(i, ErrorCode::unbounded, "the solid has no finite size",
-                     "intersect it with a block first");
-}
-
 bool center_at(Call& call, Value& out) {
     Aabb box;
     Vec3 point;
@@ -242,7 +226,7 @@ bool center_at(Call& call, Value& out) {
     return apply(call, call[0], translation(point - box.centre()), 1, out);
 }
 
-// align(s, x: "min", z: "max", to: point or solid)
+// align(s, x: "min", z: "max", to: point or shape)
 bool align(Call& call, Value& out) {
     static constexpr auto kSides = std::to_array<std::string_view>({"min", "center", "max"});
     Aabb box;
@@ -250,7 +234,8 @@ bool align(Call& call, Value& out) {
     Aabb target{{0, 0, 0}, {0, 0, 0}};
     if (call.has(4)) {
         Vec3 point;
-        if (call[4].is(Tag::solid) || call[4].is(Tag::contour)) {
+        if (call[4].is(Tag::solid) || call[4].is(Tag::contour) || call[4].is(Tag::path) ||
+            call[4].is(Tag::mesh)) {
             if (!box_of(call, 4, target)) return false;
         } else if (vector_of(call, 4, point)) {
             target = {point, point};
