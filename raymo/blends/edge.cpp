@@ -38,7 +38,10 @@ struct Axis {
     Vec3 origin, direction;
 };
 std::optional<Axis> common_axis(const Surface& a, const Surface& b) {
-    if (a.kind == SurfaceKind::wall || b.kind == SurfaceKind::wall) return std::nullopt;
+    const auto is_wall = [](const Surface& s) {
+        return s.kind == SurfaceKind::wall || s.kind == SurfaceKind::leaning;
+    };
+    if (is_wall(a) || is_wall(b)) return std::nullopt;
     const double size = size_of(a) + size_of(b);
     if (has_axis(a) && has_axis(b)) {
         if (is_parallel(a.axis, b.axis) && is_on(b.point, a.point, a.axis, size)) {
@@ -122,6 +125,7 @@ SectionCurve section_beside(const EdgeCurve& e, const Surface& s) {
             // On its head where the section's axis runs the other way.
             return curve_of(s, {.xx = 1.0, .xy = 0.0, .x = 0.0, .yx = 0.0, .yy = up, .y = z});
         case SurfaceKind::wall:
+        case SurfaceKind::leaning:
             break;
     }
     return {};
@@ -215,6 +219,7 @@ void append_roots(const Arc& arc, const Surface& s, std::vector<double>& out) {
         }
         case SurfaceKind::wall:
         case SurfaceKind::turned:
+        case SurfaceKind::leaning:
             return;
     }
 }

@@ -78,16 +78,39 @@ public:
         // Scaled to lengths of the body.
         const Affine2 scale{.xx = across_, .yy = is_turned ? norm(m.column(2)) : across_};
         for (curves::Span2& span : spans) span = curves::mapped(span, scale);
-        if (left < 0.0) {
-            std::reverse(spans.begin(), spans.end());
-            for (curves::Span2& span : spans) span = curves::reversed(span);
-        }
+        if (left < 0.0) turn_round(spans);
         Surface s;
         s.kind = is_turned ? SurfaceKind::turned : SurfaceKind::wall;
         s.point = leaf_.map.offset;
         s.axis = axis_;
         s.across = unit(m.column(0));
         s.up = unit(m.column(1));
+        s.run = std::make_shared<const Run>(std::move(spans), is_closed);
+        add(s, 1.0, name);
+    }
+    /// The same, of the plane z = -1 of the kernel's frame, swept towards the point z = `apex` of the axis. Under any map.
+    void leaning(std::vector<curves::Span2> spans, bool is_closed, double left, double apex,
+                 std::string_view name) {
+        const Mat3& m = leaf_.map.linear;
+        Surface s;
+        s.kind = SurfaceKind::leaning;
+        s.across = unit(m.column(0));
+        s.up = unit(m.column(1) - s.across * dot(m.column(1), s.across));
+        const Vec3 base = leaf_.map(Vec3{0, 0, -1});
+        const Vec3 top = leaf_.map(Vec3{0, 0, apex});
+        s.axis = cross(s.across, s.up);
+        if (dot(base - top, s.axis) < 0.0) s.axis = -s.axis;
+        s.height = dot(base - top, s.axis);
+        s.point = top + s.axis * s.height;
+        const Vec3 origin = base - s.point;
+        const Affine2 map{.xx = dot(m.column(0), s.across),
+                          .xy = dot(m.column(1), s.across),
+                          .x = dot(origin, s.across),
+                          .yx = 0.0,
+                          .yy = dot(m.column(1), s.up),
+                          .y = dot(origin, s.up)};
+        for (curves::Span2& span : spans) span = curves::mapped(span, map);
+        if (left < 0.0) turn_round(spans);
         s.run = std::make_shared<const Run>(std::move(spans), is_closed);
         add(s, 1.0, name);
     }
@@ -100,6 +123,10 @@ public:
     }
 
 private:
+    static void turn_round(std::vector<curves::Span2>& spans) {
+        std::reverse(spans.begin(), spans.end());
+        for (curves::Span2& span : spans) span = curves::reversed(span);
+    }
     void round(SurfaceKind kind, Vec3 at, double radius, double tube, double side,
                std::string_view name) {
         Surface s;
@@ -161,9 +188,9 @@ Vec2 normal_of(const curves::Piece& piece, double left) {
     return Vec2{d.y, -d.x} * left;
 }
 
-/// The free-form pieces of a region, joined to smooth runs.
-void add_runs(const curves::Region& region, const std::vector<bool>& is_free, Faces& faces,
-              bool is_turned) {
+/// The free-form pieces of a region, joined to smooth runs: add(spans, is_closed, left) for each.
+template <class Add>
+void add_runs(const curves::Region& region, const std::vector<bool>& is_free, Add&& add) {
     const auto& pieces = region.pieces();
     // Whether a piece goes on where the one before it ends.
     const auto follows = [&](std::size_t i) {
@@ -185,10 +212,10 @@ void add_runs(const curves::Region& region, const std::vector<bool>& is_free, Fa
         if (i == first && !is_closed && spans.size() > 1) {
             // A curve that meets itself in a corner is two faces, which go over into each other somewhere else.
             const auto half = spans.begin() + static_cast<std::ptrdiff_t>(spans.size() / 2);
-            faces.swept({half, spans.end()}, false, left, "wall", is_turned);
+            add(std::vector(half, spans.end()), false, left);
             spans.erase(half, spans.end());
         }
-        faces.swept(std::move(spans), is_closed, left, "wall", is_turned);
+        add(std::move(spans), is_closed, left);
     };
     for (std::size_t i = 0; i < pieces.size(); ++i) {
         if (is_free[i] && !done[i] && !follows(i)) take(i);
@@ -198,12 +225,15 @@ void add_runs(const curves::Region& region, const std::vector<bool>& is_free, Fa
     }
 }
 
-/// Of a conic sweep, whose straight lines sweep planes and whose circles about its axis sweep cones.
+/// Of a conic sweep: straight lines sweep planes, circles about its axis cones, all others leaning walls.
 void leaning_walls(const solids::ContourSweep& kernel, Faces& faces) {
     faces.plane({0, 0, -1}, {0, 0, -1}, "bottom");
     if (kernel.ratio() > 0.0) faces.plane({0, 0, 1}, {0, 0, 1}, "top");
     const double ratio = kernel.ratio();
-    for (const curves::Piece& piece : kernel.region().pieces()) {
+    const auto& pieces = kernel.region().pieces();
+    std::vector<bool> is_free(pieces.size(), false);
+    for (std::size_t i = 0; i < pieces.size(); ++i) {
+        const curves::Piece& piece = pieces[i];
         const double left = kernel.region().left_side(piece);
         if (left == 0.0) continue;
         const Shape shape = shape_of(piece);
@@ -212,17 +242,18 @@ void leaning_walls(const solids::ContourSweep& kernel, Faces& faces) {
             // On the way up a point of the line goes by (ratio - 1) / 2 of itself.
             const Vec2 n = normal_of(piece, left);
             faces.plane({a.x, a.y, -1}, {n.x, n.y, 0.5 * (1.0 - ratio) * dot(n, a)}, "wall");
-        } else if (shape.kind == Shape::circle && norm(shape.centre) <= kShape * shape.radius) {
-            if (!faces.is_round()) {
-                faces.unknown(kStretched);
-                continue;
-            }
+        } else if (shape.kind == Shape::circle && faces.is_round() &&
+                   norm(shape.centre) <= kShape * shape.radius) {
             faces.cone({shape.radius, -1.0}, {ratio * shape.radius, 1.0}, left * shape.turn,
                        "wall");
         } else {
-            faces.unknown("a conic sweep has other walls than planes and cones about its axis");
+            is_free[i] = true;
         }
     }
+    const double apex = -1.0 + 2.0 / (1.0 - ratio);
+    add_runs(kernel.region(), is_free, [&](auto spans, bool is_closed, double left) {
+        faces.leaning(std::move(spans), is_closed, left, apex, "wall");
+    });
 }
 
 void walls(const solids::ContourSweep& kernel, Faces& faces) {
@@ -249,7 +280,9 @@ void walls(const solids::ContourSweep& kernel, Faces& faces) {
             faces.unknown(kStretched);
         }
     }
-    add_runs(kernel.region(), is_free, faces, false);
+    add_runs(kernel.region(), is_free, [&](auto spans, bool is_closed, double left) {
+        faces.swept(std::move(spans), is_closed, left, "wall", false);
+    });
 }
 
 void turned_walls(const solids::Revolve::Kernel& kernel, Faces& faces) {
@@ -287,7 +320,9 @@ void turned_walls(const solids::Revolve::Kernel& kernel, Faces& faces) {
             is_free[i] = true;
         }
     }
-    add_runs(kernel.region(), is_free, faces, true);
+    add_runs(kernel.region(), is_free, [&](auto spans, bool is_closed, double left) {
+        faces.swept(std::move(spans), is_closed, left, "wall", true);
+    });
 }
 
 struct AddFaces {

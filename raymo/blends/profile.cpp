@@ -113,6 +113,48 @@ Run::Nearest Run::nearest(Vec2 p) const {
     return {j.value, normal, dot(p - j.value, normal), u};
 }
 
+Run::Seen Run::seen(Vec3 d, double height) const {
+    std::size_t closest = 0;
+    double most = -std::numeric_limits<double>::infinity();
+    const auto ray_to = [&](Vec2 p) { return Vec3{p.x, p.y, height}; };
+    for (std::size_t i = 0; i < samples_.size(); ++i) {
+        const Vec3 ray = ray_to(samples_[i]);
+        const double cosine = dot(d, ray) / norm(ray);
+        if (!(cosine > most)) continue;
+        most = cosine;
+        closest = i;
+    }
+    const double at = static_cast<double>(closest) / kSamples;
+    double lo = at - 1.0 / kSamples;
+    double hi = at + 1.0 / kSamples;
+    if (!is_closed_) {
+        lo = std::max(lo, 0.0);
+        hi = std::min(hi, end());
+    }
+    // Newton's method on (d.D') (D.D) - (d.D) (D.D'), held between the neighbours of the closest sample.
+    double u = at;
+    Jet j = jet(u);
+    for (int i = 0; i < 60; ++i) {
+        const Vec3 ray = ray_to(j.value);
+        const Vec2 flat{d.x, d.y};
+        const double along = dot(d, ray);
+        const double turn = dot(j.value, j.first);
+        const double square = dot(ray, ray);
+        const double slope = dot(flat, j.first) * square - along * turn;
+        (slope > 0.0 ? lo : hi) = u;
+        const double bend = dot(flat, j.second) * square + dot(flat, j.first) * turn -
+                            along * (dot(j.first, j.first) + dot(j.value, j.second));
+        double next = bend < 0.0 ? u - slope / bend : 0.5 * (lo + hi);
+        if (!(next > lo && next < hi)) next = 0.5 * (lo + hi);
+        if (std::fabs(next - u) <= 0x1p-52 * (1.0 + std::fabs(u))) break;
+        u = next;
+        j = jet(u);
+    }
+    const double speed = norm(j.first);
+    const Vec2 normal = speed > 0.0 ? Vec2{j.first.y, -j.first.x} * (1.0 / speed) : Vec2{1.0, 0.0};
+    return {j.value, normal};
+}
+
 Run::Moved Run::moved(double u, double by) const {
     const Jet j = jet(u);
     const double speed = norm(j.first);

@@ -107,8 +107,29 @@ Trace follow(const Surface& a, const Surface& b, const Aabb& box, Vec3 start) {
     return trace;
 }
 
+/// Meetings of a leaning wall with another surface: along its rulings, and along its run, where another wall of the same apex
+/// meets it in a ruling.
+std::vector<Vec3> leaning_seeds(const Surface& a, const Surface& b, const Aabb& box) {
+    std::vector<Vec3> out;
+    const double size = size_of(box);
+    std::vector<double> at;
+    for (const Vec2 p : a.run->samples()) {
+        EdgeCurve line;
+        line.along = unit(a.place(p) - a.apex());
+        line.origin = a.place(p) + line.along * dot(box.centre() - a.place(p), line.along);
+        make_frame(line.along, line.across, line.up);
+        at.clear();
+        append_crossings(line, {}, b, -size, size, at);
+        for (const double t : at) out.push_back(line.place({}, t));
+    }
+    for (const Vec2 p : a.run->crossings([&](Vec2 q) { return b.distance(a.place(q)); }))
+        out.push_back(a.place(p));
+    return out;
+}
+
 /// Meetings of a free-form surface with another: along its rulings, or along its meridians from sample to sample.
 std::vector<Vec3> free_seeds(const Surface& a, const Surface& b, const Aabb& box) {
+    if (a.kind == SurfaceKind::leaning) return leaning_seeds(a, b, box);
     std::vector<Vec3> out;
     const auto& samples = a.run->samples();
     if (a.kind == SurfaceKind::wall) {
@@ -262,6 +283,7 @@ std::vector<Vec3> seeds(const Surface& a, const Surface& b, const Aabb& box) {
                 continue;
             case SurfaceKind::wall:
             case SurfaceKind::turned:
+            case SurfaceKind::leaning:
                 continue;
         }
         make_frame(line.along, line.across, line.up);

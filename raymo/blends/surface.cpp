@@ -23,6 +23,21 @@ Polar polar(const Surface& s, Vec3 p) {
     return {along, 0.0, u};
 }
 
+/// The ruling of a leaning wall that is nearest to a point.
+struct Ruling {
+    Vec3 at;      ///< where it meets the plane of the run
+    Vec3 normal;  ///< unit
+};
+Ruling ruling(const Surface& s, Vec3 p) {
+    const Vec3 d = p - s.point;
+    const auto seen =
+        s.run->seen({dot(d, s.across), dot(d, s.up), dot(d, s.axis) + s.height}, s.height);
+    // Across the ruling (P, h), too.
+    const Vec3 normal = s.across * seen.normal.x + s.up * seen.normal.y -
+                        s.axis * (dot(seen.normal, seen.point) / s.height);
+    return {s.place(seen.point), unit(normal)};
+}
+
 }  // namespace
 
 std::string_view kind_name(SurfaceKind kind) {
@@ -41,6 +56,8 @@ std::string_view kind_name(SurfaceKind kind) {
             return "wall";
         case SurfaceKind::turned:
             return "surface of revolution";
+        case SurfaceKind::leaning:
+            return "leaning wall";
     }
     return "";
 }
@@ -66,6 +83,10 @@ double Surface::distance(Vec3 p) const {
         case SurfaceKind::turned: {
             const Polar q = polar(*this, p);
             return run->nearest({q.across, q.along}).distance;
+        }
+        case SurfaceKind::leaning: {
+            const Ruling r = ruling(*this, p);
+            return dot(p - r.at, r.normal);
         }
     }
     return 0.0;
@@ -99,6 +120,8 @@ Vec3 Surface::normal(Vec3 p) const {
             const Vec2 n = run->nearest({q.across, q.along}).normal;
             return q.direction * n.x + axis * n.y;
         }
+        case SurfaceKind::leaning:
+            return ruling(*this, p).normal;
     }
     return axis;
 }

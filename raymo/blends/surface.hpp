@@ -1,5 +1,10 @@
 // The surfaces that blends join, each with a signed distance: planes, spheres, cylinders, cones and tori, and the walls that a
-// free-form curve sweeps along a line or about an axis.
+// free-form curve sweeps along a line, about an axis or towards a point.
+//
+// A leaning wall is swept towards its apex. With the apex in the origin and the curve P(u) in the plane z = h, the foot of a
+// point d lies on the ruling D(u) = (P, h) that is seen from the apex at the least angle from d: where d.D / |D| is largest,
+//     (d.D') (D.D) = (d.D) (D.D').
+// There d - D (d.D) / (D.D) stands on D and D', so that the distance is (d - D).n along the normal n across both.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +15,16 @@
 
 namespace raymo::blends {
 
-enum class SurfaceKind : std::uint8_t { plane, sphere, cylinder, cone, torus, wall, turned };
+enum class SurfaceKind : std::uint8_t {
+    plane,
+    sphere,
+    cylinder,
+    cone,
+    torus,
+    wall,
+    turned,
+    leaning
+};
 
 /// "plane", "sphere", ...
 [[nodiscard]] std::string_view kind_name(SurfaceKind kind);
@@ -28,8 +42,9 @@ struct Surface {
     double sine = 0.0;    ///< of the cone's half angle
     double cosine = 1.0;
     RunPtr
-        run;  ///< of a wall, in (across, up) from `point`; of what is turned, in (radius, height above `point`)
-    Vec3 across, up{};  ///< of a wall: unit
+        run;  ///< of walls, in (across, up) from `point`; of what is turned, in (radius, height above `point`)
+    Vec3 across, up{};    ///< of walls: unit
+    double height = 0.0;  ///< of a leaning wall: from its apex, along the axis, to `point`
 
     /// Euclidean, and exact but for rounding; of a cone and behind its apex: to the cone run through without end.
     [[nodiscard]] double distance(Vec3 p) const;
@@ -37,6 +52,10 @@ struct Surface {
     [[nodiscard]] bool is_free() const { return run != nullptr; }
     /// Unit; the direction in which the distance grows. On an axis any of the directions across.
     [[nodiscard]] Vec3 normal(Vec3 p) const;
+    /// A point of the plane of a wall's run.
+    [[nodiscard]] Vec3 place(Vec2 q) const { return point + across * q.x + up * q.y; }
+    /// The apex of a leaning wall.
+    [[nodiscard]] Vec3 apex() const { return point - axis * height; }
 };
 
 }  // namespace raymo::blends

@@ -68,6 +68,7 @@ Surface offset(Surface s, double by) {
             break;
         case SurfaceKind::wall:
         case SurfaceKind::turned:
+        case SurfaceKind::leaning:
             break;
     }
     return s;

@@ -75,8 +75,9 @@ Result<csg::Solid> on_own_side(const Body& body, csg::Solid wedge, const Segment
                                const csg::Solid& more, SourceSpan span) {
     const Surface& surface = body.faces()[face].surface;
     const Vec3 at = segment.ends[end].point;
-    auto inner = surface.kind == SurfaceKind::turned ? whole_leaf(body, face, span)
-                                                     : inner_side(surface, at, reach, span);
+    auto inner = surface.kind == SurfaceKind::turned || surface.kind == SurfaceKind::leaning
+                     ? whole_leaf(body, face, span)
+                     : inner_side(surface, at, reach, span);
     if (!inner) return inner;
     const Vec3 forth = segment.tangent(segment.ends[end].at) * (end == 0 ? 1.0 : -1.0);
     const bool is_inner = dot(surface.normal(at), forth) < 0.0;
@@ -139,6 +140,7 @@ Result<csg::Solid> inner_side(const Surface& s, Vec3 at, double reach, SourceSpa
                                   frame(s.across, s.up, up, s.point + up * dot(d, up)), span);
         }
         case SurfaceKind::turned:
+        case SurfaceKind::leaning:
             break;
     }
     return fail(ErrorCode::evaluation, "unknown surface");

@@ -159,7 +159,7 @@ TEST_CASE("P5: lines through corners, along diagonals and borders of patches alt
     Random random(5);
     int met = 0;
     for (const meshes::Net& net : shell.patches) {
-        for (const std::size_t k : {0, 3, 12, 15, 5}) {
+        for (const std::size_t k : {0U, 3U, 12U, 15U, 5U}) {
             const Vec3 p = shell.points[net[k]];
             for (const Vec3 q :
                  {Vec3{}, Vec3{0.1, 0, 0}, shell.points[net[10]] * -1.0, random.in_cube(0.2)}) {
