@@ -9,6 +9,7 @@
 
 #include "apps/raymo/system/files.hpp"
 #include "apps/raymo/text.hpp"
+#include "raymo/core/folder.hpp"
 
 namespace raymo::app {
 namespace {
@@ -17,12 +18,6 @@ std::string without_links(const std::string& path) {
     const std::unique_ptr<char, decltype(&std::free)> real(realpath(path.c_str(), nullptr),
                                                            &std::free);
     return real ? std::string(real.get()) : std::string();
-}
-
-/// "models/" of "models/cup.raymo"; empty for a plain name.
-std::string folder_of(const std::string& path) {
-    const std::size_t slash = path.rfind('/');
-    return slash == std::string::npos ? std::string() : path.substr(0, slash + 1);
 }
 
 std::string with_slash(const std::string& path) { return path.ends_with('/') ? path : path + '/'; }

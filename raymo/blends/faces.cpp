@@ -225,64 +225,68 @@ void add_runs(const curves::Region& region, const std::vector<bool>& is_free, Ad
     }
 }
 
+/// Which pieces of a region are free-form: those of which told(piece, shape, left) is false, `left` as Region::left_side() says.
+template <class Told>
+std::vector<bool> free_pieces(const curves::Region& region, Told&& told) {
+    const auto& pieces = region.pieces();
+    std::vector<bool> is_free(pieces.size(), false);
+    for (std::size_t i = 0; i < pieces.size(); ++i) {
+        const double left = region.left_side(pieces[i]);
+        is_free[i] = left != 0.0 && !told(pieces[i], shape_of(pieces[i]), left);
+    }
+    return is_free;
+}
+
 /// Of a conic sweep: straight lines sweep planes, circles about its axis cones, all others leaning walls.
 void leaning_walls(const solids::ContourSweep& kernel, Faces& faces) {
     faces.plane({0, 0, -1}, {0, 0, -1}, "bottom");
     if (kernel.ratio() > 0.0) faces.plane({0, 0, 1}, {0, 0, 1}, "top");
     const double ratio = kernel.ratio();
-    const auto& pieces = kernel.region().pieces();
-    std::vector<bool> is_free(pieces.size(), false);
-    for (std::size_t i = 0; i < pieces.size(); ++i) {
-        const curves::Piece& piece = pieces[i];
-        const double left = kernel.region().left_side(piece);
-        if (left == 0.0) continue;
-        const Shape shape = shape_of(piece);
-        const Vec2 a = piece.point(0);
+    const auto told = [&](const curves::Piece& piece, const Shape& shape, double left) {
         if (shape.kind == Shape::line) {
             // On the way up a point of the line goes by (ratio - 1) / 2 of itself.
+            const Vec2 a = piece.point(0);
             const Vec2 n = normal_of(piece, left);
             faces.plane({a.x, a.y, -1}, {n.x, n.y, 0.5 * (1.0 - ratio) * dot(n, a)}, "wall");
-        } else if (shape.kind == Shape::circle && faces.is_round() &&
-                   norm(shape.centre) <= kShape * shape.radius) {
-            faces.cone({shape.radius, -1.0}, {ratio * shape.radius, 1.0}, left * shape.turn,
-                       "wall");
-        } else {
-            is_free[i] = true;
+            return true;
         }
-    }
+        if (shape.kind != Shape::circle || !faces.is_round() ||
+            norm(shape.centre) > kShape * shape.radius)
+            return false;
+        faces.cone({shape.radius, -1.0}, {ratio * shape.radius, 1.0}, left * shape.turn, "wall");
+        return true;
+    };
     const double apex = -1.0 + 2.0 / (1.0 - ratio);
-    add_runs(kernel.region(), is_free, [&](auto spans, bool is_closed, double left) {
-        faces.leaning(std::move(spans), is_closed, left, apex, "wall");
-    });
+    add_runs(kernel.region(), free_pieces(kernel.region(), told),
+             [&](auto spans, bool is_closed, double left) {
+                 faces.leaning(std::move(spans), is_closed, left, apex, "wall");
+             });
 }
 
 void walls(const solids::ContourSweep& kernel, Faces& faces) {
     if (kernel.ratio() != 1.0) return leaning_walls(kernel, faces);
     faces.plane({0, 0, -1}, {0, 0, -1}, "bottom");
     faces.plane({0, 0, 1}, {0, 0, 1}, "top");
-    const auto& pieces = kernel.region().pieces();
-    std::vector<bool> is_free(pieces.size(), false);
-    for (std::size_t i = 0; i < pieces.size(); ++i) {
-        const curves::Piece& piece = pieces[i];
-        const double left = kernel.region().left_side(piece);
-        if (left == 0.0) continue;
-        const Shape shape = shape_of(piece);
+    const auto told = [&](const curves::Piece& piece, const Shape& shape, double left) {
         if (shape.kind == Shape::line) {
             const Vec2 a = piece.point(0);
             const Vec2 n = normal_of(piece, left);
             faces.plane({a.x, a.y, 0}, {n.x, n.y, 0}, "wall");
-        } else if (shape.kind == Shape::circle && faces.is_round()) {
-            faces.cylinder({shape.centre.x, shape.centre.y, 0}, shape.radius, left * shape.turn,
-                           "wall");
-        } else if (faces.is_round()) {
-            is_free[i] = true;
-        } else {
-            faces.unknown(kStretched);
+            return true;
         }
-    }
-    add_runs(kernel.region(), is_free, [&](auto spans, bool is_closed, double left) {
-        faces.swept(std::move(spans), is_closed, left, "wall", false);
-    });
+        if (!faces.is_round()) {
+            faces.unknown(kStretched);
+            return true;
+        }
+        if (shape.kind != Shape::circle) return false;
+        faces.cylinder({shape.centre.x, shape.centre.y, 0}, shape.radius, left * shape.turn,
+                       "wall");
+        return true;
+    };
+    add_runs(kernel.region(), free_pieces(kernel.region(), told),
+             [&](auto spans, bool is_closed, double left) {
+                 faces.swept(std::move(spans), is_closed, left, "wall", false);
+             });
 }
 
 void turned_walls(const solids::Revolve::Kernel& kernel, Faces& faces) {
@@ -291,13 +295,7 @@ void turned_walls(const solids::Revolve::Kernel& kernel, Faces& faces) {
         faces.plane({}, {0, -1, 0}, "start");
         faces.plane({}, kernel.end_normal(), "end");
     }
-    const auto& pieces = kernel.region().pieces();
-    std::vector<bool> is_free(pieces.size(), false);
-    for (std::size_t i = 0; i < pieces.size(); ++i) {
-        const curves::Piece& piece = pieces[i];
-        const double left = kernel.region().left_side(piece);
-        if (left == 0.0) continue;
-        const Shape shape = shape_of(piece);
+    const auto told = [&](const curves::Piece& piece, const Shape& shape, double left) {
         const Vec2 a = piece.point(0);
         const Vec2 b = piece.point(3);
         if (shape.kind == Shape::line) {
@@ -309,20 +307,21 @@ void turned_walls(const solids::Revolve::Kernel& kernel, Faces& faces) {
                 const bool upright = std::fabs(b.x - a.x) <= kShape * std::fabs(b.y - a.y);
                 faces.cone(a, upright ? Vec2{a.x, b.y} : b, n.x > 0.0 ? 1.0 : -1.0, "wall");
             }
-        } else if (shape.kind == Shape::circle && faces.is_similar()) {
-            const double side = left * shape.turn;
-            if (std::fabs(shape.centre.x) <= kShape * shape.radius) {
-                faces.sphere({0, 0, shape.centre.y}, shape.radius, side, "wall");
-            } else {
-                faces.torus(shape.centre.y, shape.centre.x, shape.radius, side, "wall");
-            }
-        } else {
-            is_free[i] = true;
+            return true;
         }
-    }
-    add_runs(kernel.region(), is_free, [&](auto spans, bool is_closed, double left) {
-        faces.swept(std::move(spans), is_closed, left, "wall", true);
-    });
+        if (shape.kind != Shape::circle || !faces.is_similar()) return false;
+        const double side = left * shape.turn;
+        if (std::fabs(shape.centre.x) <= kShape * shape.radius) {
+            faces.sphere({0, 0, shape.centre.y}, shape.radius, side, "wall");
+        } else {
+            faces.torus(shape.centre.y, shape.centre.x, shape.radius, side, "wall");
+        }
+        return true;
+    };
+    add_runs(kernel.region(), free_pieces(kernel.region(), told),
+             [&](auto spans, bool is_closed, double left) {
+                 faces.swept(std::move(spans), is_closed, left, "wall", true);
+             });
 }
 
 struct AddFaces {

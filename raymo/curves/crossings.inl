@@ -131,7 +131,7 @@ RAYMO_INLINE R lane_crossing(const R (&c)[N + 1], M active) {
     return lane_select(from_start, s, R(1.0)) / (R(1.0) + s);
 }
 
-/// `noise` (>= 0, finite) as in find_roots; coefficients of at most 2^1000.
+/// `noise` (>= 0, finite) as in find_roots; coefficients of at most 2^500, as find_roots makes them.
 template <int N, class M, class R>
 RAYMO_INLINE LaneSigns<M> lane_signs(const R (&c)[N + 1], R noise) {
     const R minus = R(0.0) - noise;

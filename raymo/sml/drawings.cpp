@@ -3,17 +3,10 @@
 #include <algorithm>
 #include <array>
 
+#include "raymo/core/folder.hpp"
 #include "raymo/sml/value.hpp"
 
 namespace raymo::sml {
-namespace {
-
-std::string folder_of(const std::string& path) {
-    const std::size_t slash = path.rfind('/');
-    return slash == std::string::npos ? std::string() : path.substr(0, slash + 1);
-}
-
-}  // namespace
 
 bool is_font_file(std::string_view name) {
     if (name.find('/') != std::string_view::npos) return true;

@@ -13,6 +13,7 @@
 
 #include "apps/raymo/system/interrupt.hpp"
 #include "apps/raymo/text.hpp"
+#include "raymo/core/folder.hpp"
 #include "raymo/sml/sml.hpp"
 
 namespace raymo::app {
@@ -37,10 +38,10 @@ tl::unexpected<Trouble> can_not(std::string_view what, const std::string& path, 
                                      std::strerror(error));
 }
 
-std::string folder_of(const std::string& path) {
-    const std::size_t slash = path.rfind('/');
-    if (slash == std::string::npos) return ".";
-    return slash == 0 ? "/" : path.substr(0, slash);
+/// With its closing '/'.
+std::string existing_folder_of(const std::string& path) {
+    const std::string folder = folder_of(path);
+    return folder.empty() ? "./" : folder;
 }
 
 /// The file behind symbolic links; the path itself when there is none yet.
@@ -131,7 +132,7 @@ Attempt<void> Outputs::check(const std::string& path) {
     } else if (errno != ENOENT) {
         return can_not("write", path, errno);
     }
-    const std::string folder = folder_of(target);
+    const std::string folder = existing_folder_of(target);
     if (stat(folder.c_str(), &info) != 0) return can_not("write", path, errno);
     if (!S_ISDIR(info.st_mode)) return can_not("write", path, ENOTDIR);
     if (access(folder.c_str(), W_OK | X_OK) != 0) return can_not("write", path, errno);
@@ -146,7 +147,7 @@ Attempt<void> Outputs::prepare(const std::string& path, std::span<const std::uin
         prepared_.push_back(std::move(p));
         return {};
     }
-    std::string name = folder_of(p.target) + "/.raymo-XXXXXX";
+    std::string name = existing_folder_of(p.target) + ".raymo-XXXXXX";
     const Descriptor file(mkostemp(name.data(), O_CLOEXEC));
     if (file.get() < 0) return can_not("write", path, errno);
     guard_file(name);
