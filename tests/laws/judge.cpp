@@ -130,7 +130,9 @@ void judge_first(const Judge& judge, const std::vector<trace::PartSpan>& spans) 
             if (span.enter.t > expected->t) next = std::min(next, span.enter.t);
             if (span.exit.t > expected->t) next = std::min(next, span.exit.t);
         }
-        const double between = 0.5 * (expected->t + next);
+        double between = 0.5 * (expected->t + next);
+        // What ends or begins too early was seen the other way from the origin on.
+        if (hit.t < expected->t && hit.entering != expected->entering) between = 0.5 * hit.t;
         if (judge.side(between) == Side::unclear) return;
         char what[160];
         std::snprintf(what, sizeof what,
