@@ -66,11 +66,13 @@ struct Trace {
 Trace follow(const Surface& a, const Surface& b, const Aabb& box, Vec3 start) {
     Trace trace;
     trace.nodes.push_back(start);
+    const auto way_out = direction(a, b, start);
+    if (!way_out) return trace;
     const double longest = kLongest * size_of(box);
     const double shortest = kShortest * size_of(box);
     for (const double sense : {1.0, -1.0}) {
         Vec3 p = start;
-        auto way = direction(a, b, p);
+        auto way = way_out;
         double h = longest;
         while (way && box.contains(p)) {
             if (trace.nodes.size() >= kMostNodes) {
@@ -91,7 +93,7 @@ Trace follow(const Surface& a, const Surface& b, const Aabb& box, Vec3 start) {
             }
             // Past the start again?
             if (sense > 0.0 && trace.nodes.size() > 3 && norm(next - start) < h &&
-                norm(p - start) < 2.0 * h && dot(next - start, *direction(a, b, start)) >= 0.0) {
+                norm(p - start) < 2.0 * h && dot(next - start, *way_out) >= 0.0) {
                 trace.is_closed = true;
                 if (norm(p - start) < 0.25 * h) trace.nodes.pop_back();
                 trace.nodes.push_back(start);
@@ -314,7 +316,11 @@ bool to_distances(const Surface& a, double from_a, const Surface& b, double from
 }
 
 SpaceEdge::SpaceEdge(Surface a, Surface b, std::vector<Vec3> nodes, bool is_closed, bool is_smooth)
-    : a_(a), b_(b), nodes_(std::move(nodes)), is_closed_(is_closed), is_smooth_(is_smooth) {
+    : a_(std::move(a)),
+      b_(std::move(b)),
+      nodes_(std::move(nodes)),
+      is_closed_(is_closed),
+      is_smooth_(is_smooth) {
     at_.reserve(nodes_.size());
     at_.push_back(0.0);
     for (std::size_t i = 1; i < nodes_.size(); ++i) {

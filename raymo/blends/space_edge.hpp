@@ -35,7 +35,8 @@ public:
     [[nodiscard]] std::size_t steps() const { return at_.size() - 1; }
     /// The parameter of a node; of a closed curve they go on round it.
     [[nodiscard]] double node(std::size_t i) const {
-        return at_[i % steps()] + last() * static_cast<double>(i / steps());
+        const std::size_t rounds = i / steps();
+        return at_[i % steps()] + last() * static_cast<double>(rounds);
     }
     /// Length of the step at a parameter.
     [[nodiscard]] double step_at(double t) const;

@@ -30,6 +30,7 @@ public:
     void run() {
         // Largest first: what is below a formula need not be one by itself.
         std::vector<NodeId> waiting;
+        waiting.reserve(program_.modules.size() + program_.given.size());
         for (const Module& module : program_.modules) waiting.push_back(module.root);
         for (const auto& [name, expression] : program_.given) waiting.push_back(expression);
         while (!waiting.empty()) {

@@ -350,7 +350,7 @@ bool Call::colour(std::size_t i, scene::Colour& out, std::string& written) {
         written.clear();
         return true;
     }
-    return wrong_kind(i, "a colour", "write \"tomato\", \"#ff6347\" or (1, 0.4, 0.3)");
+    return wrong_kind(i, "a colour", R"(write "tomato", "#ff6347" or (1, 0.4, 0.3))");
 }
 
 bool Call::choice(std::size_t i, std::span<const std::string_view> choices, std::size_t& out) {

@@ -53,7 +53,7 @@ inline constexpr std::size_t kMostPatches = 0x40000;
 
 /// Nodes of a tree that wait for a line, at most: 7 of each level. There are at most 2^22 leaves, and all levels but the last
 /// are full.
-inline constexpr std::size_t kMostFreeformWaiting = 8 * 9;
+inline constexpr std::size_t kMostFreeformWaiting = std::size_t{8} * 9;
 
 /// Error of a place on a patch, seen across a line, when all coordinates are below 1.75: 20 roundings of the sums of
 /// weights and points, one of the difference to the line's place, 5 of its product with a vector of the frame, for three
