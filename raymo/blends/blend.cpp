@@ -73,11 +73,17 @@ Failure does_not_fit(const Body& body, const Segment& segment, const Fitting& fi
 }
 
 /// Where a ball fits everywhere, but what it leaves can not be made.
-Failure is_too_sharp(const Body& body, const Segment& segment, double radius, SourceSpan span) {
+Failure is_too_sharp(const Body& body, const Segment& segment, const Form& form, SourceSpan span) {
+    const double radius = form.radius;
     const auto works = [&](double r) {
+        Form smaller = form;
+        smaller.radius = r;
         return fitting_of(body, segment, r).fit == Fit::good &&
-               tube_wedge(body, segment, r, segment.lo, segment.hi, span).has_value();
+               tube_wedge(body, segment, smaller, segment.lo, segment.hi, span).has_value();
     };
+    const char* what = form.profile == Profile::ball    ? "ball"
+                       : form.profile == Profile::conic ? "conic"
+                                                        : "chamfer";
     // Two digits are enough.
     double smaller = 0.0;
     for (int i = 1; i <= 8 && smaller == 0.0; ++i) {
@@ -85,14 +91,13 @@ Failure is_too_sharp(const Body& body, const Segment& segment, double radius, So
         const double tried = std::floor(radius * std::exp2(-i) / unit) * unit;
         if (works(tried)) smaller = tried;
     }
-    return fail(
-        ErrorCode::out_of_range,
-        fmt::format("the edge between {} and {} bends too sharply for a ball of radius {:g}",
-                    body.name_of(body.faces()[segment.face_a]),
-                    body.name_of(body.faces()[segment.face_b]), radius),
-        smaller > 0.0 ? fmt::format("a radius of {:g} works here", smaller)
-                      : "let them meet less slantingly, or choose other edges with `near` "
-                        "or `where`");
+    return fail(ErrorCode::out_of_range,
+                fmt::format("the edge between {} and {} bends too sharply for a {} of radius {:g}",
+                            body.name_of(body.faces()[segment.face_a]),
+                            body.name_of(body.faces()[segment.face_b]), what, radius),
+                smaller > 0.0 ? fmt::format("a radius of {:g} works here", smaller)
+                              : "let them meet less slantingly, or choose other edges with `near` "
+                                "or `where`");
 }
 
 bool is_inside(const csg::Solid& solid, Vec3 p) {
@@ -256,15 +261,8 @@ Result<Blended> blend(const Body& body, csg::Solid sharp, bool within_operands,
         if (!go_on(jobs[i].segment.space ? 1e6 : 10.0)) return stopped;
         extend(body, jobs, i, form.radius, plans[i]);
         const Segment& segment = jobs[i].segment;
-        if (segment.space && form.profile != Profile::ball) {
-            return fail(ErrorCode::bad_argument,
-                        fmt::format("along the curve in which {} and {} meet there are only balls",
-                                    body.name_of(body.faces()[segment.face_a]),
-                                    body.name_of(body.faces()[segment.face_b])),
-                        "leave out `kind`");
-        }
         const csg::MaterialId material = body.leaves()[body.faces()[segment.face_a].leaf].material;
-        if (segment.space && shows_alike(body, material)) {
+        if (segment.space && form.profile == Profile::ball && shows_alike(body, material)) {
             auto ring = rounded_ring(body, segment, form.radius, span);
             if (ring && *ring && stands_apart(**ring, rings)) {
                 (*ring)->tube = painted(std::move((*ring)->tube), material, span);
@@ -272,11 +270,10 @@ Result<Blended> blend(const Body& body, csg::Solid sharp, bool within_operands,
                 continue;
             }
         }
-        auto made = segment.space
-                        ? tube_wedge(body, segment, form.radius, jobs[i].lo, jobs[i].hi, span)
-                        : solid_of(segment, form, jobs[i].lo, jobs[i].hi, span);
+        auto made = segment.space ? tube_wedge(body, segment, form, jobs[i].lo, jobs[i].hi, span)
+                                  : solid_of(segment, form, jobs[i].lo, jobs[i].hi, span);
         if (!made && segment.space && made.error().code == ErrorCode::out_of_range)
-            return is_too_sharp(body, segment, form.radius, span);
+            return is_too_sharp(body, segment, form, span);
         if (!made) return Failure(std::move(made).error());
         jobs[i].solid = painted(std::move(*made), material, span);
     }

@@ -2,92 +2,132 @@
 
 #include <cmath>
 
+#include "raymo/blends/fit.hpp"
 #include "raymo/core/assert.hpp"
 
 namespace raymo::blends {
 namespace {
 
-/// Cubics with the right tangents at so many places are within (1 / 256)^4 / 384 of the fourth derivative.
-constexpr int kSpans = 256;
+/// How far cubics may be off, as part of the distance from contact to contact; and at most so many halvings, and cubics.
+constexpr double kTolerance = 1e-10;
+constexpr int kMostHalvings = 40;
+constexpr std::size_t kMostSpans = 1024;
 
-/// The function g of a surface, natural side up.
-class Level {
-public:
-    explicit Level(const SectionCurve& c) : radius_(c.is_line ? c.round : c.radius) {}
-
-    [[nodiscard]] bool is_linear() const { return radius_ == 0.0; }
-    [[nodiscard]] double at(double distance) const {
-        return is_linear() ? distance : distance * (2.0 * radius_ + distance);
-    }
-    [[nodiscard]] double distance(double level) const {
-        if (is_linear()) return level;
-        // sqrt(R^2 + level) - R without cancellation.
-        return level / (std::sqrt(std::max(radius_ * radius_ + level, 0.0)) + radius_);
-    }
-
-private:
-    double radius_;
-};
+Level level_of(const SectionCurve& c) { return Level(c.is_line ? c.round : c.radius); }
 
 class Conic {
 public:
-    Conic(const EdgeCurve& e, const Wedge& w, double weight)
+    Conic(const EdgeCurve& e, const Wedge& w, double shape)
         : edge_(e),
-          a_(e.a),
-          b_(e.b),
-          range_a_(a_.at(e.a.side * e.a.distance(w.contact[1]))),
-          range_b_(b_.at(e.b.side * e.b.distance(w.contact[0]))),
-          weight_(weight) {}
+          distances_(level_of(e.a), e.a.side * e.a.distance(w.contact[1]), level_of(e.b),
+                     e.b.side * e.b.distance(w.contact[0]), shape) {}
 
     [[nodiscard]] bool is_linear() const {
-        return a_.is_linear() && b_.is_linear() && !edge_.a.run && !edge_.b.run;
+        return level_of(edge_.a).is_linear() && level_of(edge_.b).is_linear() && !edge_.a.run &&
+               !edge_.b.run;
     }
 
-    /// From contact 1 (0) to contact 0 (1), and a little beyond both.
+    /// From contact 1 (0) to contact 0 (1).
     [[nodiscard]] Vec2 at(double t) const {
-        const double s = 1.0 - t;
-        const double d = s * s + 2.0 * weight_ * s * t + t * t;
-        const double from_a = edge_.a.side * a_.distance(range_a_ * s * s / d);
-        const double from_b = edge_.b.side * b_.distance(range_b_ * t * t / d);
-        const auto p = edge_.at_distances(from_a, from_b);
+        const ConicDistances::Pair from = distances_.at(t);
+        const auto p = edge_.at_distances(edge_.a.side * from.a, edge_.b.side * from.b);
         RAYMO_ASSERT(p.has_value());
         return *p;
     }
-    /// Its derivative, from four neighbours: to h^4.
-    [[nodiscard]] Vec2 derivative(double t) const {
-        constexpr double h = 0x1p-10;
-        return (8.0 * (at(t + h) - at(t - h)) - (at(t + 2.0 * h) - at(t - 2.0 * h))) *
-               (1.0 / (12.0 * h));
+    /// The parameter at a part of a stretch, as of a conic.
+    [[nodiscard]] double part(double from, double to, double v) const {
+        return distances_.part(from, to, v);
     }
 
 private:
     const EdgeCurve& edge_;
-    Level a_, b_;
-    double range_a_, range_b_;
-    double weight_;
+    ConicDistances distances_;
 };
 
 }  // namespace
 
+double Level::distance(double level) const {
+    if (is_linear()) return level;
+    // sqrt(R^2 + level) - R without cancellation.
+    return level / (std::sqrt(std::max(radius_ * radius_ + level, 0.0)) + radius_);
+}
+
+Level level_of(const Surface& surface) {
+    switch (surface.kind) {
+        case SurfaceKind::sphere:
+        case SurfaceKind::cylinder:
+            return Level(surface.radius);
+        case SurfaceKind::torus:
+            return Level(surface.tube);
+        case SurfaceKind::plane:
+        case SurfaceKind::cone:
+        case SurfaceKind::wall:
+        case SurfaceKind::turned:
+            break;
+    }
+    return Level(0.0);
+}
+
+ConicDistances::ConicDistances(Level a, double reach_a, Level b, double reach_b, double shape)
+    : a_(a),
+      b_(b),
+      range_a_(a.at(reach_a)),
+      range_b_(b.at(reach_b)),
+      weight_(std::sqrt(0.5 * (1.0 - shape))) {}
+
+ConicDistances::Pair ConicDistances::at(double t) const {
+    const double s = 1.0 - t;
+    const double d = weight_at(t);
+    return {a_.distance(range_a_ * s * s / d), b_.distance(range_b_ * t * t / d)};
+}
+
+double ConicDistances::part(double from, double to, double v) const {
+    const double left = std::sqrt(weight_at(to)) * (1.0 - v);
+    const double right = std::sqrt(weight_at(from)) * v;
+    return (from * left + to * right) / (left + right);
+}
+
 void append_conic(curves::Curve& curve, const Segment& segment, const Wedge& wedge, double shape) {
     const EdgeCurve& e = segment.edge;
-    const double weight = std::sqrt(0.5 * (1.0 - shape));
-    const Conic conic(e, wedge, weight);
+    const Conic conic(e, wedge, shape);
     if (conic.is_linear()) {
+        const double weight = std::sqrt(0.5 * (1.0 - shape));
         curve.spans.push_back(conic_arc(wedge.contact[1], e.at, wedge.contact[0], weight));
         return;
     }
-    Vec2 from = wedge.contact[1];
-    Vec2 from_way = conic.derivative(0.0);
-    for (int i = 1; i <= kSpans; ++i) {
-        const double t = static_cast<double>(i) / kSpans;
-        const Vec2 to = i == kSpans ? wedge.contact[0] : conic.at(t);
-        const Vec2 to_way = conic.derivative(t);
-        const double third = 1.0 / (3.0 * kSpans);
-        curve.spans.push_back(
-            curves::cubic(from, from + from_way * third, to - to_way * third, to));
-        from = to;
-        from_way = to_way;
+    // In a plane of space; both contacts to the last bits.
+    const auto place = [&](double t) {
+        const Vec2 p = t == 0.0 ? wedge.contact[1] : (t == 1.0 ? wedge.contact[0] : conic.at(t));
+        return Vec3{p.x, p.y, 0.0};
+    };
+    const double allowed = kTolerance * norm(wedge.contact[1] - wedge.contact[0]);
+    struct Stretch {
+        double from, to;
+        int halvings;
+    };
+    std::vector<Stretch> open{{0.0, 1.0, 0}};
+    for (std::size_t count = 0; !open.empty();) {
+        const auto [from, to, halvings] = open.back();
+        open.pop_back();
+        Places met;
+        for (std::size_t k = 0; k < met.size(); ++k)
+            met[k] = place(k + 1 == met.size() ? to : conic.part(from, to, kPlaces[k]));
+        const Vec3 up{0.0, 0.0, norm(met.back() - met.front())};
+        const Cubic c = cubic_through(local_line(met, up));
+        bool is_near = true;
+        for (const double v : kBetween) {
+            const auto offset = local_cubic(c, up, v).offset(place(conic.part(from, to, v)));
+            is_near &= std::fabs(offset.off) <= allowed && std::fabs(offset.u) <= kSlide;
+        }
+        if (is_near || halvings == kMostHalvings || count + open.size() >= kMostSpans) {
+            const auto flat = [](Vec3 p) { return Vec2{p.x, p.y}; };
+            curve.spans.push_back(curves::cubic(flat(c[0]), flat(c[1]), flat(c[2]), flat(c[3])));
+            ++count;
+            continue;
+        }
+        const double middle = conic.part(from, to, 0.5);
+        open.push_back({middle, to, halvings + 1});
+        open.push_back({from, middle, halvings + 1});
     }
 }
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "raymo/blends/least_squares.hpp"
+
 namespace raymo::blends {
 namespace {
 
@@ -12,8 +14,6 @@ constexpr double kMet[] = {0.19098300562505258, 0.5, 0.80901699437494742};
 constexpr double kOff[] = {0.07467459582398, 0.3375401518835468, 0.6624598481164532,
                            0.9253254041760199};
 constexpr int kNewtonSteps = 3;
-/// Tikhonov's term: far less than what a curve of any use tells, far more than roundings.
-constexpr double kTikhonov = 0x1p-40;
 /// A span is not longer than this many times the one before; lengths are tried with some room.
 constexpr double kMostGrowth = 2.0;
 constexpr double kRoom = 0.95;
@@ -33,43 +33,6 @@ curves::PathSpan path_span(const Cubic& c, double radius) {
     return out;
 }
 
-/// Sums of squares of linear conditions on six unknowns, with their right sides in the last column.
-class Conditions {
-public:
-    Conditions() {
-        for (std::size_t i = 0; i < 6; ++i) m_[i][i] = kTikhonov;
-    }
-    void add(const std::array<double, 7>& row) {
-        for (std::size_t i = 0; i < 6; ++i) {
-            for (std::size_t j = 0; j < 7; ++j) m_[i][j] += row[i] * row[j];
-        }
-    }
-    /// By Gauss' elimination; the matrix is positive definite, so without pivots.
-    [[nodiscard]] std::array<double, 6> solved() {
-        for (std::size_t i = 0; i < 6; ++i) {
-            for (std::size_t k = i + 1; k < 6; ++k) {
-                const double part = m_[k][i] / m_[i][i];
-                for (std::size_t j = i; j < 7; ++j) m_[k][j] -= part * m_[i][j];
-            }
-        }
-        std::array<double, 6> x{};
-        for (std::size_t i = 6; i-- > 0;) {
-            double sum = m_[i][6];
-            for (std::size_t j = i + 1; j < 6; ++j) sum -= m_[i][j] * x[j];
-            x[i] = sum / m_[i][i];
-        }
-        return x;
-    }
-
-private:
-    std::array<std::array<double, 7>, 6> m_{};
-};
-
-Vec3 slope_at(const Cubic& c, double u) {
-    const double w = 1.0 - u;
-    return (c[1] - c[0]) * (w * w) + (c[2] - c[1]) * (2.0 * w * u) + (c[3] - c[2]) * (u * u);
-}
-
 /// Whether a cubic runs ahead all the way.
 bool runs_ahead(const Cubic& c) {
     const Vec3 chord = c[3] - c[0];
@@ -82,7 +45,7 @@ std::optional<Cubic> through_path(const Spine& spine, const Station& from, const
     Cubic cubic = path_between(from, to);
     const double length = norm(to.centre - from.centre);
     for (int step = 0; step < kNewtonSteps; ++step) {
-        Conditions conditions;
+        LeastSquares<6> conditions;
         double worst = 0.0;
         for (const double u : kMet) {
             const Vec3 at = value_at(cubic, u);

@@ -19,6 +19,11 @@ Vec3 value_at(const Cubic& c, double u) {
            c[3] * (u * u * u);
 }
 
+Vec3 slope_at(const Cubic& c, double u) {
+    const double w = 1.0 - u;
+    return (c[1] - c[0]) * (w * w) + (c[2] - c[1]) * (2.0 * w * u) + (c[3] - c[2]) * (u * u);
+}
+
 double round_handle(Vec3 p, Vec3 from, Vec3 q, Vec3 to) {
     const double chord = norm(q - p);
     const double angle = std::atan2(norm(cross(from, to)), dot(from, to));

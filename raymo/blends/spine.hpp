@@ -18,6 +18,8 @@ namespace raymo::blends {
 /// Control points of a cubic in Bernstein form.
 using Cubic = std::array<Vec3, 4>;
 [[nodiscard]] Vec3 value_at(const Cubic& cubic, double u);
+/// A third of its derivative.
+[[nodiscard]] Vec3 slope_at(const Cubic& cubic, double u);
 /// How far from the ends p and q of an arc with these unit tangents the inner control points are, so that of a circle the cubic
 /// is off by less than 2^-15 of the radius for every right angle.
 [[nodiscard]] double round_handle(Vec3 p, Vec3 from, Vec3 q, Vec3 to);

@@ -124,16 +124,25 @@ bool is_free_beyond(const Body& body, const Segment& segment, const Aabb& box) {
 
 }  // namespace
 
-Result<csg::Solid> tube_wedge(const Body& body, const Segment& segment, double radius, double lo,
+Result<csg::Solid> tube_wedge(const Body& body, const Segment& segment, const Form& form, double lo,
                               double hi, SourceSpan span) {
+    const double radius = form.radius;
     const Spine spine(body, segment, radius);
-    auto sector = sector_solid(spine, lo, hi, span);
+    auto sector = sector_solid(spine, form, lo, hi, span);
     if (!sector) return sector;
-    auto ball = tube(spine, lo, hi, kTube * radius, radius, span);
-    if (!ball) return ball;
     const Aabb box = csg::bounds(*sector);
+    // Nothing else is taken away then by what of the sectors is beyond the faces.
+    if (form.profile != Profile::ball && segment.is_closed && segment.is_convex &&
+        is_free_beyond(body, segment, box)) {
+        return sector;
+    }
     std::vector<csg::Solid> kept{std::move(*sector)};
-    std::vector<csg::Solid> lost{std::move(*ball)};
+    std::vector<csg::Solid> lost;
+    if (form.profile == Profile::ball) {
+        auto ball = tube(spine, lo, hi, kTube * radius, radius, span);
+        if (!ball) return ball;
+        lost.push_back(std::move(*ball));
+    }
     const double s = segment.sign();
     for (std::size_t i = 0; i < 2; ++i) {
         const Surface& surface = body.faces()[i == 0 ? segment.face_a : segment.face_b].surface;
@@ -146,9 +155,10 @@ Result<csg::Solid> tube_wedge(const Body& body, const Segment& segment, double r
         // A round lies within the faces' own side, a fillet beyond it.
         ((s < 0.0) == (side > 0.0) ? kept : lost).push_back(std::move(*inner));
     }
-    lost.insert(lost.begin(), kept.size() == 1
-                                  ? kept[0]
-                                  : csg::boolean(csg::Op::intersection, std::move(kept), span));
+    csg::Solid whole =
+        kept.size() == 1 ? kept[0] : csg::boolean(csg::Op::intersection, std::move(kept), span);
+    if (lost.empty()) return whole;
+    lost.insert(lost.begin(), std::move(whole));
     return csg::boolean(csg::Op::difference, std::move(lost), span);
 }
 
@@ -156,15 +166,17 @@ Result<std::optional<RoundedRing>> rounded_ring(const Body& body, const Segment&
                                                 double radius, SourceSpan span) {
     if (!segment.space || !segment.is_closed || !segment.is_convex) return std::nullopt;
     const Spine spine(body, segment, radius);
+    Form ball;
+    ball.radius = radius;
     RoundedRing out;
-    auto sectors = sector_solid(spine, segment.lo, segment.hi, span);
+    auto sectors = sector_solid(spine, ball, segment.lo, segment.hi, span);
     if (!sectors || !is_free_beyond(body, segment, csg::bounds(*sectors))) return std::nullopt;
     out.sectors = std::move(*sectors);
     // Off by half of what it may be, and smaller by the other half: nowhere outside of the body.
     constexpr double kHalf = 0.5 * kTube;
-    auto ball = tube(spine, segment.lo, segment.hi, kHalf * radius, (1.0 - kHalf) * radius, span);
-    if (!ball) return Failure(std::move(ball).error());
-    out.tube = std::move(*ball);
+    auto swept = tube(spine, segment.lo, segment.hi, kHalf * radius, (1.0 - kHalf) * radius, span);
+    if (!swept) return Failure(std::move(swept).error());
+    out.tube = std::move(*swept);
     return out;
 }
 

@@ -2,7 +2,8 @@
 //
 // Two of the five surfaces get random sizes, places and directions, bounded far away; all edges that they make are blended. The
 // judge does not follow any curve along: it knows the balls' centres as thousands of points with both distances equal to the radius, found by
-// Newton's method from random starts, and looks for the nearest centre from the nearest of these.
+// Newton's method from random starts, and looks for the nearest centre from the nearest of these. Chamfers and conics are judged in
+// the plane across at that centre (profiled.hpp).
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -12,14 +13,15 @@
 #include "raymo/trace/tracer.hpp"
 #include "tests/laws/judge.hpp"
 #include "tests/laws/law.hpp"
-#include "tests/laws/rolled.hpp"
+#include "tests/laws/profiled.hpp"
 
 namespace raymo::laws {
 namespace {
 
 constexpr double kFar = 16.0;
 constexpr double kNear = 4.0;  ///< what is looked at
-/// Paths of balls are cubics to 2^-30 of the radius, and gaps at contacts 2^-33 of it; positions are of the size of kFar.
+/// Paths of balls are cubics to 2^-30 of the radius, and gaps at contacts 2^-33 of it; so are the patches of chamfers and conics.
+/// Positions are of the size of kFar.
 constexpr Real kMargin = 4e-9L;
 
 Real r(double x) { return static_cast<Real>(x); }
@@ -74,7 +76,9 @@ Operand any_operand(Random& random) {
 
 class Crossing {
 public:
-    Crossing(Random& random, Tally& tally) : random_(random), tally_(tally) {}
+    /// `is_ball`: or else a chamfer or a conic.
+    Crossing(Random& random, Tally& tally, bool is_ball)
+        : random_(random), tally_(tally), is_ball_(is_ball) {}
 
     /// True if it was blended.
     bool run(std::uint64_t rays) {
@@ -82,9 +86,13 @@ public:
         b_ = any_operand(random_);
         op_ = static_cast<csg::Op>(random_.below(3));
         radius_ = std::pow(10.0, random_.uniform(-1.7, -0.5));
-        blends::Form form;
-        form.radius = radius_;
-        const auto made = blends::blended(op_, {build(a_.model), build(b_.model)}, form);
+        form_ = {};
+        form_.radius = radius_;
+        if (!is_ball_) {
+            form_.profile = random_.chance(0.5) ? blends::Profile::chamfer : blends::Profile::conic;
+            if (form_.profile == blends::Profile::conic) form_.shape = random_.uniform(-0.95, 0.95);
+        }
+        const auto made = blends::blended(op_, {build(a_.model), build(b_.model)}, form_);
         ++tally_.samples;
         if (!made) {
             if (made.error().message.empty() || made.error().hint.empty()) fault("gives no reason");
@@ -102,6 +110,10 @@ public:
         if (spine.points.size() < 500) return false;
         const std::vector<RealVec> cloud = spine.points;
         rolled.roll(r(radius_), {std::move(spine)});
+        const auto shape =
+            form_.profile == blends::Profile::conic ? std::optional(r(form_.shape)) : std::nullopt;
+        const Profiled profiled(rolled, r(radius_), shape);
+        profiled_ = is_ball_ ? nullptr : &profiled;
         scene::Scene scene;
         scene.parts.push_back({"crossing", made->solid, {}});
         const auto compiled = trace::compile(scene);
@@ -120,8 +132,9 @@ public:
             const RealVec to_b = rolled.q().gradient(c) * Real{-1};
             const Real s = r(random_.uniform(-0.3, 1.3));
             const Real off = r(std::pow(10.0, random_.uniform(-7, 0)));
-            const RealVec target = c + unit(to_a * (1 - s) + to_b * s) *
-                                           (r(radius_) * (random_.chance(0.5) ? 1 + off : 1 - off));
+            const RealVec way = unit(to_a * (1 - s) + to_b * s);
+            const Real deep = is_ball_ ? r(radius_) : profiled.begins(c, way);
+            const RealVec target = c + way * (deep * (random_.chance(0.5) ? 1 + off : 1 - off));
             const Vec3 at = rounded(target);
             judge(rolled, real(at), locator.where(at) == query::Where::in, "point");
             const Vec3 d = random_.direction();
@@ -156,7 +169,8 @@ public:
 private:
     void judge(const Rolled& rolled, RealVec x, bool is_in, const char* what) {
         if (norm(x) > r(kNear)) return;
-        const Side truth = rolled.closing(x, kMargin);
+        const Side truth =
+            profiled_ != nullptr ? profiled_->filled(x, kMargin) : rolled.closing(x, kMargin);
         ++tally_.samples;
         if (truth == Side::unclear) return;
         if ((truth == Side::in) != ((op_ == csg::Op::unite) == is_in)) {
@@ -172,10 +186,17 @@ private:
     }
     void fault(const std::string& what) {
         static constexpr const char* kOps[] = {"union", "difference", "intersection"};
-        char size[40];
-        std::snprintf(size, sizeof size, "%.17g", radius_);
+        static constexpr const char* kKinds[] = {"ball", "conic", "chamfer"};
+        char form[100];
+        std::snprintf(form, sizeof form, "%.17g, kind: \"%s\"", radius_,
+                      kKinds[static_cast<std::size_t>(form_.profile)]);
+        std::string call = form;
+        if (form_.profile == blends::Profile::conic) {
+            std::snprintf(form, sizeof form, ", shape: %.17g", form_.shape);
+            call += form;
+        }
         tally_.exception(what + ": " + kOps[static_cast<std::size_t>(op_)] + "(" + text(*a_.model) +
-                         ", " + text(*b_.model) + ", blend: " + size + ")");
+                         ", " + text(*b_.model) + ", blend: " + call + ")");
     }
 
     Random& random_;
@@ -183,20 +204,31 @@ private:
     Operand a_, b_;
     csg::Op op_ = csg::Op::unite;
     double radius_ = 1.0;
+    bool is_ball_;
+    blends::Form form_;
+    const Profiled* profiled_ = nullptr;  ///< while it runs, unless it is a ball
     std::vector<std::vector<trace::PartSpan>> spans_;
 };
 
-void crossings(std::uint64_t rays, Random& random, Tally& tally) {
+void crossings(std::uint64_t rays, Random& random, Tally& tally, bool is_ball) {
     const std::uint64_t count = std::max<std::uint64_t>(rays / 200, 4);
     std::uint64_t blended = 0;
-    for (std::uint64_t i = 0; i < count; ++i) blended += Crossing(random, tally).run(200) ? 1 : 0;
+    for (std::uint64_t i = 0; i < count; ++i)
+        blended += Crossing(random, tally, is_ball).run(200) ? 1 : 0;
     if (8 * blended < count) tally.exception("hardly any pair could be blended");
 }
 
 }  // namespace
 
 void add_crossing_laws(std::vector<Law>& laws) {
-    laws.push_back({"blends: surfaces that cross in any position", 200000, crossings});
+    laws.push_back({"blends: surfaces that cross in any position", 200000,
+                    [](std::uint64_t rays, Random& random, Tally& tally) {
+                        crossings(rays, random, tally, true);
+                    }});
+    laws.push_back({"blends: chamfers and conics of surfaces that cross", 100000,
+                    [](std::uint64_t rays, Random& random, Tally& tally) {
+                        crossings(rays, random, tally, false);
+                    }});
 }
 
 }  // namespace raymo::laws
