@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "raymo/blends/corner.hpp"
 #include "raymo/blends/tube.hpp"
 #include "raymo/blends/vertex.hpp"
 
@@ -16,14 +17,14 @@ namespace {
 constexpr double kSmallest = 0x1p-24;
 
 /// The largest radius that fits, rounded down to three digits; 0 when none does.
-double largest_radius(const Body& body, const Segment& segment, double too_large) {
+double largest_radius(const std::function<bool(double)>& fits, double too_large) {
     double lo = 0.0;
     double hi = too_large;
     double tried = too_large;
     // Down to one that fits, then between.
     for (int i = 0; i < 64 && lo == 0.0; ++i) {
         tried *= 0.5;
-        if (fitting_of(body, segment, tried).fit == Fit::good) {
+        if (fits(tried)) {
             lo = tried;
         } else {
             hi = tried;
@@ -32,7 +33,7 @@ double largest_radius(const Body& body, const Segment& segment, double too_large
     if (lo == 0.0) return 0.0;
     for (int i = 0; i < 30; ++i) {
         const double middle = 0.5 * (lo + hi);
-        (fitting_of(body, segment, middle).fit == Fit::good ? lo : hi) = middle;
+        (fits(middle) ? lo : hi) = middle;
     }
     // A search ends a little below a round number.
     lo *= 1.0 + 0x1p-24;
@@ -40,8 +41,30 @@ double largest_radius(const Body& body, const Segment& segment, double too_large
     return std::floor(lo / unit) * unit;
 }
 
-Failure does_not_fit(const Body& body, const Segment& segment, const Fitting& fitting,
-                     double radius) {
+/// A hint that tells it.
+std::string largest_of(const Body& body, const std::function<bool(double)>& fits, double radius) {
+    // Between faces that are nearly flat large balls fit, but not that large ones.
+    const double most =
+        largest_radius(fits, std::min(radius, 0x1p20 * max_norm(body.box().size())));
+    return most > 0.0 ? fmt::format("the largest radius that works here is {:g}", most)
+                      : "no radius works here: choose other edges with `near` or `where`";
+}
+
+/// The corners of segments for another radius, if balls roll between all of them.
+std::optional<std::vector<Corner>> settled(const Body& body, std::vector<Segment>& segments,
+                                           Profile profile, double radius) {
+    auto corners = find_corners(body, segments, profile, radius);
+    if (!corners) return std::nullopt;
+    for (const Segment& s : segments) {
+        const bool rests = s.ends[0].rest_face || s.ends[1].rest_face;
+        if (rests && !s.is_used_up && s.rolled() < -kPress * radius) return std::nullopt;
+    }
+    return *std::move(corners);
+}
+
+Failure does_not_fit(const Body& body, const std::vector<Segment>& segments, std::size_t which,
+                     const Fitting& fitting, const Form& form) {
+    const Segment& segment = segments[which];
     if (fitting.fit == Fit::endless_bend) {
         return fail(ErrorCode::out_of_range,
                     fmt::format("the edge between {} and {} bends too sharply to be followed",
@@ -57,19 +80,35 @@ Failure does_not_fit(const Body& body, const Segment& segment, const Fitting& fi
             "move or resize one of them so that they cross at an angle");
     }
     std::string message = fmt::format("a ball of radius {:g} does not fit between {} and {}",
-                                      radius, body.name_of(body.faces()[segment.face_a]),
+                                      form.radius, body.name_of(body.faces()[segment.face_a]),
                                       body.name_of(body.faces()[segment.face_b]));
     if (fitting.fit == Fit::off_face) {
         message += fmt::format(": it reaches beyond {}", body.name_of(body.faces()[fitting.face]));
     } else if (fitting.fit == Fit::blocked) {
         message += fmt::format(": {} is in its way", body.name_of(body.faces()[fitting.face]));
     }
-    // Between faces that are nearly flat large balls fit, but not that large ones.
-    const double most =
-        largest_radius(body, segment, std::min(radius, 0x1p20 * max_norm(body.box().size())));
-    return fail(ErrorCode::out_of_range, std::move(message),
-                most > 0.0 ? fmt::format("the largest radius that works here is {:g}", most)
-                           : "no radius works here: choose other edges with `near` or `where`");
+    const auto fits = [&](double r) {
+        std::vector<Segment> again = segments;
+        return settled(body, again, form.profile, r) &&
+               (again[which].is_used_up || fitting_of(body, again[which], r).fit == Fit::good);
+    };
+    return fail(ErrorCode::out_of_range, std::move(message), largest_of(body, fits, form.radius));
+}
+
+Failure does_not_fit(const Body& body, const std::vector<Segment>& segments, const Corner& corner,
+                     const Fitting& fitting, const Form& form) {
+    std::string message =
+        fmt::format("a ball of radius {:g} does not fit {}", form.radius, name_of(body, corner));
+    if (fitting.fit == Fit::blocked)
+        message += fmt::format(": {} is in its way", body.name_of(body.faces()[fitting.face]));
+    const auto fits = [&](double r) {
+        std::vector<Segment> again = segments;
+        const auto corners = settled(body, again, form.profile, r);
+        return corners && std::all_of(corners->begin(), corners->end(), [&](const Corner& c) {
+                   return fitting_of(body, c, r).fit == Fit::good;
+               });
+    };
+    return fail(ErrorCode::out_of_range, std::move(message), largest_of(body, fits, form.radius));
 }
 
 /// Where a ball fits everywhere, but what it leaves can not be made.
@@ -240,11 +279,23 @@ Result<Blended> blend(const Body& body, csg::Solid sharp, bool within_operands,
         return Failure(std::move(known).error());
     }
 
+    if (!go_on(static_cast<double>(segments.size()))) return stopped;
+    auto corners = find_corners(body, segments, form.profile, form.radius);
+    if (!corners) return Failure(std::move(corners).error());
+    for (std::size_t i = 0; i < segments.size(); ++i) {
+        if (!go_on(static_cast<double>(body.faces().size()) + 64.0)) return stopped;
+        if (segments[i].is_used_up) continue;
+        const Fitting fitting = fitting_of(body, segments[i], form.radius);
+        if (fitting.fit != Fit::good) return does_not_fit(body, segments, i, fitting, form);
+    }
+    for (const Corner& corner : *corners) {
+        if (!go_on(static_cast<double>(body.faces().size() + corner.sides.size()))) return stopped;
+        if (const Fitting fitting = fitting_of(body, corner, form.radius); fitting.fit != Fit::good)
+            return does_not_fit(body, segments, corner, fitting, form);
+    }
     std::vector<Job> jobs;
     for (Segment& segment : segments) {
-        if (!go_on(static_cast<double>(body.faces().size()) + 64.0)) return stopped;
-        const Fitting fitting = fitting_of(body, segment, form.radius);
-        if (fitting.fit != Fit::good) return does_not_fit(body, segment, fitting, form.radius);
+        if (segment.is_used_up) continue;
         Job job;
         job.extent = extent_of(body, segment, form.radius);
         job.segment = std::move(segment);
@@ -285,10 +336,13 @@ Result<Blended> blend(const Body& body, csg::Solid sharp, bool within_operands,
         if (!cut) return Failure(std::move(cut).error());
         (jobs[i].segment.is_convex ? rounds : fillets).push_back(std::move(*cut));
     }
-    auto corners = corners_of(body, jobs, form, span);
-    if (!corners) return Failure(std::move(corners).error());
-    for (auto& [solid, is_convex] : *corners) {
-        (is_convex ? rounds : fillets).push_back(std::move(solid));
+    if (form.profile == Profile::ball) {
+        for (const Corner& corner : *corners) {
+            auto made = solids_of(body, corner, form, span);
+            if (!made) return Failure(std::move(made).error());
+            auto& to = corner.is_convex ? rounds : fillets;
+            to.insert(to.end(), made->begin(), made->end());
+        }
     }
     Blended out{std::move(sharp), jobs.size()};
     if (!rings.empty()) out.solid = rounded_off(std::move(out.solid), std::move(rings), span);

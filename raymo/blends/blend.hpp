@@ -7,8 +7,8 @@
 // and can be operand of others; its edges blend like any.
 //
 // At the end of an edge, where a third face is met, the wedge is run on and cut as the solid's own edges there ask for: into
-// the material or out of it, in a mitre with the wedge of the next edge, or, where three edges are blended alike, to the ball
-// that touches all three faces.
+// the material or out of it, in a mitre with the wedge of the next edge, or, where all edges of a corner are blended alike, to
+// the balls that touch its faces (corner.hpp).
 //
 // Ref: geometry of rolling balls [Rossignac86]; [Wijk86 5].
 #pragma once

@@ -4,51 +4,13 @@
 // no farther than r from these: from its own place, or from its foot on the planes of one, two or three of the faces.
 #include <random>
 
-#include "raymo/blends/test_blends.hpp"
+#include "raymo/blends/test_polyhedra.hpp"
 #include "raymo/curves/samples.hpp"
 
 namespace raymo::blends {
 namespace {
 
 using namespace test;
-
-struct Plane {
-    Vec3 normal;
-    double offset;
-};
-
-/// Distance of a point from the centres.
-double from_centres(const std::vector<Plane>& planes, double r, Vec3 p) {
-    double least = std::numeric_limits<double>::infinity();
-    const auto consider = [&](Vec3 c) {
-        for (const Plane& plane : planes) {
-            if (dot(plane.normal, c) > plane.offset - r + 1e-9) return;
-        }
-        least = std::min(least, norm(c - p));
-    };
-    const auto off = [&](const Plane& plane, Vec3 at) {
-        return plane.offset - r - dot(plane.normal, at);
-    };
-    consider(p);
-    for (std::size_t i = 0; i < planes.size(); ++i) {
-        const Plane& a = planes[i];
-        consider(p + a.normal * off(a, p));
-        for (std::size_t k = 0; k < i; ++k) {
-            const Plane& b = planes[k];
-            const Vec3 along = cross(a.normal, b.normal);
-            const Mat3 two{{a.normal, b.normal, along}};
-            if (!is_invertible(two)) continue;
-            consider(p + inverse(two) * Vec3{off(a, p), off(b, p), 0.0});
-            for (std::size_t m = 0; m < k; ++m) {
-                const Plane& c = planes[m];
-                const Mat3 three{{a.normal, b.normal, c.normal}};
-                if (!is_invertible(three)) continue;
-                consider(p + inverse(three) * Vec3{off(a, p), off(b, p), off(c, p)});
-            }
-        }
-    }
-    return least;
-}
 
 /// `upright`: the solid within the planes. `size`: a cube about the origin that holds it.
 void check(const csg::Solid& upright, const std::vector<Plane>& planes, double size, double r,
@@ -85,9 +47,7 @@ void check(const csg::Solid& upright, const std::vector<Plane>& planes, double s
 }
 
 void check(const std::vector<Plane>& planes, double size, double r, std::size_t edges) {
-    std::vector<csg::Solid> sides{centred_block(2 * size, 2 * size, 2 * size)};
-    for (const Plane& plane : planes) sides.push_back(halfspace(plane.normal, plane.offset));
-    check(csg::boolean(csg::Op::intersection, sides), planes, size, r, edges);
+    check(within(planes, size), planes, size, r, edges);
 }
 
 /// A polygon, counter-clockwise, that shrinks to `ratio` times its size at the height `high`.
@@ -120,6 +80,11 @@ TEST_CASE("polyhedra: a conic sweep of a polygon") {
     check(leaning(tapered, 4, 0.7), planes_of(tapered, 4, 0.7), 5, 0.5, 12);
     const std::vector<Vec2> pointed{{-3, -2}, {4, -1}, {-1, 4}};
     check(leaning(pointed, 5, 0.0), planes_of(pointed, 5, 0.0), 6, 0.4, 6);
+    // Four faces and more in its tip, and not one ball for all of them.
+    const std::vector<Vec2> four{{-3, -2}, {4, -1}, {3, 3}, {-2, 2}};
+    check(leaning(four, 5, 0.0), planes_of(four, 5, 0.0), 6, 0.4, 8);
+    const std::vector<Vec2> seven{{1, 0}, {4, -1}, {7, 1}, {8, 4}, {6, 6}, {3, 6}, {0, 3}};
+    check(leaning(seven, 6, 0.0), planes_of(seven, 6, 0.0), 9, 0.5, 14);
     // Its axis needs not go through it.
     const std::vector<Vec2> aside{{2, 1}, {7, 1}, {7, 4}, {3, 5}};
     check(leaning(aside, 6, 0.6), planes_of(aside, 6, 0.6), 8, 0.3, 12);
@@ -147,6 +112,23 @@ TEST_CASE("polyhedra: a tetrahedron") {
     const std::vector<Plane> planes{
         {Vec3{k, k, k}, 2}, {Vec3{-k, -k, k}, 2}, {Vec3{-k, k, -k}, 2}, {Vec3{k, -k, -k}, 2}};
     check(planes, 6, 0.7, 6);
+}
+
+TEST_CASE("polyhedra: an octahedron, and one that leans") {
+    std::vector<Plane> planes;
+    for (const double x : {-1.0, 1.0}) {
+        for (const double y : {-1.0, 1.0}) {
+            for (const double z : {-1.0, 1.0}) planes.push_back({unit({x, y, z}), 2.0});
+        }
+    }
+    check(planes, 4, 0.7, 12);
+    // Under a map that takes planes to planes, and its corners along.
+    const Mat3 lean{{Vec3{1, 0.3, 0.1}, Vec3{-0.2, 0.8, 0.4}, Vec3{0, 0.2, 1.1}}};
+    for (Plane& plane : planes) {
+        const Vec3 n = transposed_times(lean, plane.normal);
+        plane = {unit(n), plane.offset / norm(n)};
+    }
+    check(planes, 6, 0.6, 12);
 }
 
 TEST_CASE("polyhedra: a leaning prism with a sharp edge") {

@@ -24,6 +24,10 @@ struct End {
         0;  ///< what the edge looks like there, seen as of a concave edge (Segment::is_convex)
     std::vector<std::size_t> faces;  ///< others that are met there
     Vec3 point;
+    /// In a corner of planes: how far from here the ball of the corner is that touches another of them, in parameters along the
+    /// segment; it does not roll on from there. Negative where it rolls past the end (corner.hpp).
+    double rest = 0.0;
+    std::optional<std::size_t> rest_face;  ///< which it touches there
 };
 
 /// A stretch of an edge along which it is convex or concave all the way. The sides of both faces are turned so that the solid
@@ -35,8 +39,9 @@ struct Segment {
     bool is_convex = true;
     bool is_closed = false;  ///< runs back into itself
     double lo = 0.0, hi = 0.0;
-    End ends[2];  ///< unless closed
-    Vec3 centre;  ///< its point at the middle parameter
+    End ends[2];              ///< unless closed
+    Vec3 centre;              ///< its point at the middle parameter
+    bool is_used_up = false;  ///< no ball rolls along it: its corners have become one (corner.hpp)
 
     [[nodiscard]] Vec3 point(double t) const { return space ? space->point(t) : edge.point(t); }
     /// Unit; the way in which the parameter grows.
@@ -51,6 +56,8 @@ struct Segment {
     /// The sign of the distances from both faces to the centre of the ball.
     [[nodiscard]] double sign() const { return is_convex ? -1.0 : 1.0; }
     [[nodiscard]] double middle() const { return 0.5 * (lo + hi); }
+    /// The way between the places where balls rest at its ends, in parameters: below 0 where they are past each other.
+    [[nodiscard]] double rolled() const { return hi - ends[1].rest - (lo + ends[0].rest); }
 };
 
 /// All stretches between faces of different operands, or of all faces. `reach`: the size of what is to be blended, for how close

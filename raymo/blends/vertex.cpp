@@ -18,19 +18,6 @@ constexpr Sectors kAll = 0xf;
 constexpr Sectors kOnlyA = 0xc;  // inside a: bits 2 and 3
 constexpr Sectors kOnlyB = 0xa;  // inside b: bits 1 and 3
 
-bool is_same_place(Vec3 a, Vec3 b, double size) {
-    return norm(a - b) <= 0x1p-24 * (size + max_norm(a) * 0x1p-20);
-}
-
-/// Whether two faces lie in one surface.
-bool is_same_surface(const Body& body, std::size_t i, std::size_t k, Vec3 at) {
-    if (i == k) return true;
-    const Surface& p = body.faces()[i].surface;
-    const Surface& q = body.faces()[k].surface;
-    return p.kind == q.kind && norm(cross(p.normal(at), q.normal(at))) < kSmooth &&
-           std::fabs(p.radius - q.radius) <= 0x1p-30 * std::fabs(p.radius);
-}
-
 bool has_face(const Body& body, const Segment& s, std::size_t face, Vec3 at) {
     return is_same_surface(body, s.face_a, face, at) || is_same_surface(body, s.face_b, face, at);
 }
@@ -97,6 +84,18 @@ Result<csg::Solid> on_own_side(const Body& body, csg::Solid wedge, const Segment
 }
 
 }  // namespace
+
+bool is_same_place(Vec3 a, Vec3 b, double size) {
+    return norm(a - b) <= 0x1p-24 * (size + max_norm(a) * 0x1p-20);
+}
+
+bool is_same_surface(const Body& body, std::size_t i, std::size_t k, Vec3 at) {
+    if (i == k) return true;
+    const Surface& p = body.faces()[i].surface;
+    const Surface& q = body.faces()[k].surface;
+    return p.kind == q.kind && norm(cross(p.normal(at), q.normal(at))) < kSmooth &&
+           std::fabs(p.radius - q.radius) <= 0x1p-30 * std::fabs(p.radius);
+}
 
 Result<csg::Solid> whole_leaf(const Body& body, std::size_t face, SourceSpan span) {
     const Leaf& leaf = body.leaves()[body.faces()[face].leaf];
@@ -205,6 +204,8 @@ void extend(const Body& body, std::vector<Job>& jobs, std::size_t job, double ra
             run += 2.0 * width / std::max(std::tan(half), 1.0 / kLongestRun) / s.speed();
         }
         run = std::min(run, limit);
+        // In a sharp corner the ball may roll on far past the end, until it touches another face.
+        run = std::max(run, 0x1p-10 * extent / s.speed() - s.ends[end].rest);
         (end == 0 ? self.lo : self.hi) += end == 0 ? -run : run;
     }
     if (s.space ? s.space->is_closed() : s.edge.is_circle) {
@@ -231,156 +232,6 @@ Result<csg::Solid> cut_at_ends(const Body& body, const std::vector<Job>& jobs, s
         if (!solid) return solid;
     }
     return solid;
-}
-
-namespace {
-
-/// Three faces with blended edges between each two.
-struct Corner {
-    Vec3 point;
-    bool is_convex;
-    std::vector<std::size_t> faces;
-    std::vector<double> sides;  ///< of the faces
-    std::size_t edges = 0;
-};
-
-void add_to(const Body& body, Corner& corner, std::size_t face, double side) {
-    for (const std::size_t f : corner.faces) {
-        if (is_same_surface(body, f, face, corner.point)) return;
-    }
-    corner.faces.push_back(face);
-    corner.sides.push_back(side);
-}
-
-/// The point at the distance `d` from three faces, by Newton's method, followed from the corner as d grows.
-std::optional<Vec3> meet(const Body& body, const Corner& corner, double d) {
-    constexpr int kSteps = 16;
-    Vec3 p = corner.point;
-    for (int step = 1; step <= kSteps; ++step) {
-        const double now = d * step / kSteps;
-        bool is_found = false;
-        for (int i = 0; i < 50 && !is_found; ++i) {
-            Mat3 m;
-            Vec3 off;
-            for (int k = 0; k < 3; ++k) {
-                const auto at = static_cast<std::size_t>(k);
-                const Surface& s = body.faces()[corner.faces[at]].surface;
-                m.row[at] = s.normal(p) * corner.sides[at];
-                off[k] = now - s.distance(p) * corner.sides[at];
-            }
-            if (!is_invertible(m)) return std::nullopt;
-            const Vec3 way = inverse(m) * off;
-            p = p + way;
-            if (!is_finite(p)) return std::nullopt;
-            is_found = norm(way) <= 8.0 * 0x1p-53 * (max_norm(p) + std::fabs(d));
-        }
-        if (!is_found && step == kSteps) return std::nullopt;
-    }
-    return p;
-}
-
-/// Between the ball at `c` and the planes through c and two of its contacts each: a pyramid without end but for the planes
-/// that touch the ball at the contacts, moved away a little, and as far as the corner is: a hollow wall goes on beyond them.
-/// Where all are at right angles it is a block.
-Result<csg::Solid> ball_corner(const std::array<Vec3, 3>& to_contact, Vec3 c, Vec3 corner,
-                               double radius, SourceSpan span) {
-    auto ball = make<solids::Sphere>({radius}, span);
-    if (!ball) return ball;
-    ball = csg::transform(std::move(*ball), translation(c), span);
-    if (!ball) return ball;
-    double size = radius;
-    for (const Vec3 p : to_contact) size = std::max(size, dot(p, corner - c));
-    size += 0x1p-20 * radius;
-    const auto is_across = [](Vec3 p, Vec3 q) { return std::fabs(dot(p, q)) <= 0x1p-46; };
-    if (is_across(to_contact[0], to_contact[1]) && is_across(to_contact[0], to_contact[2]) &&
-        is_across(to_contact[1], to_contact[2])) {
-        const Affine map = frame(to_contact[0], to_contact[1], to_contact[2], c);
-        auto block = make<solids::Block>({Vec3{size, size, size}, false}, span);
-        if (!block) return block;
-        block = csg::transform(std::move(*block), map, span);
-        if (!block) return block;
-        return csg::boolean(csg::Op::difference, {std::move(*block), std::move(*ball)}, span);
-    }
-    // Its tip is where the three planes at the contacts meet. Oblique planes have no box; a block has.
-    const Mat3 contacts{{to_contact[0], to_contact[1], to_contact[2]}};
-    const double reach = size + norm(inverse(contacts) * Vec3{size, size, size});
-    auto around = make<solids::Block>({Vec3{reach, reach, reach} * 2.0, true}, span);
-    if (!around) return around;
-    around = csg::transform(std::move(*around), translation(c), span);
-    if (!around) return around;
-    std::vector<csg::Solid> sides{std::move(*around)};
-    for (std::size_t i = 0; i < 3; ++i) {
-        const Vec3 p = to_contact[i];
-        const Vec3 q = to_contact[(i + 1) % 3];
-        const Vec3 r = to_contact[(i + 2) % 3];
-        Vec3 n = cross(p, q);
-        if (dot(n, r) > 0.0) n = -n;
-        auto side = make<solids::Halfspace>({n, dot(n, c)}, span);
-        if (!side) return side;
-        sides.push_back(std::move(*side));
-        auto end = make<solids::Halfspace>({p, dot(p, c) + size}, span);
-        if (!end) return end;
-        sides.push_back(std::move(*end));
-    }
-    return csg::boolean(csg::Op::difference,
-                        {csg::boolean(csg::Op::intersection, std::move(sides), span), *ball}, span);
-}
-
-}  // namespace
-
-Result<std::vector<std::pair<csg::Solid, bool>>> corners_of(const Body& body,
-                                                            const std::vector<Job>& jobs,
-                                                            const Form& form, SourceSpan span) {
-    std::vector<Corner> corners;
-    for (const Job& job : jobs) {
-        const Segment& s = job.segment;
-        if (s.is_closed) continue;
-        for (const End& end : s.ends) {
-            if (end.beyond != kAll) continue;
-            auto corner = std::find_if(corners.begin(), corners.end(), [&](const Corner& c) {
-                return c.is_convex == s.is_convex && is_same_place(c.point, end.point, form.radius);
-            });
-            if (corner == corners.end()) {
-                corners.push_back({end.point, s.is_convex, {}, {}, 0});
-                corner = corners.end() - 1;
-            }
-            ++corner->edges;
-            add_to(body, *corner, s.face_a, s.edge.a.side);
-            add_to(body, *corner, s.face_b, s.edge.b.side);
-        }
-    }
-    std::vector<std::pair<csg::Solid, bool>> out;
-    for (const Corner& corner : corners) {
-        if (corner.edges < 3) continue;
-        if (corner.faces.size() > 3 && form.profile == Profile::ball) {
-            return fail(ErrorCode::bad_argument,
-                        "more than three faces meet in one corner, which no ball touches all of",
-                        "blend these edges one after another, with `near` or `where`");
-        }
-        if (corner.faces.size() < 3 || form.profile != Profile::ball) continue;
-        const double d = corner.is_convex ? -form.radius : form.radius;
-        const auto centre = meet(body, corner, d);
-        if (!centre) {
-            return fail(ErrorCode::out_of_range,
-                        "no ball of this radius fits the corner where " +
-                            body.name_of(body.faces()[corner.faces[0]]) + ", " +
-                            body.name_of(body.faces()[corner.faces[1]]) + " and " +
-                            body.name_of(body.faces()[corner.faces[2]]) + " meet",
-                        "take a smaller radius");
-        }
-        std::array<Vec3, 3> to_contact;
-        for (std::size_t i = 0; i < 3; ++i) {
-            const Surface& s = body.faces()[corner.faces[i]].surface;
-            to_contact[i] =
-                s.normal(*centre) * (corner.is_convex ? corner.sides[i] : -corner.sides[i]);
-        }
-        auto solid = ball_corner(to_contact, *centre, corner.point, form.radius, span);
-        if (!solid) return Failure(std::move(solid).error());
-        const csg::MaterialId material = body.leaves()[body.faces()[corner.faces[0]].leaf].material;
-        if (material != csg::kNoMaterial) solid = csg::paint(std::move(*solid), material, span);
-        out.emplace_back(std::move(*solid), corner.is_convex);
-    }
-    return out;
 }
 
 }  // namespace raymo::blends

@@ -1,4 +1,4 @@
-// Where blended edges end: how their wedges are cut there, and the ball in the corner of three.
+// Where blended edges end: how their wedges are cut there.
 #pragma once
 
 #include <array>
@@ -7,6 +7,11 @@
 #include "raymo/blends/wedge.hpp"
 
 namespace raymo::blends {
+
+/// Whether two ends of edges are one, of edges that are blended by that size.
+[[nodiscard]] bool is_same_place(Vec3 a, Vec3 b, double size);
+/// Whether two faces lie in one surface, as seen at a point.
+[[nodiscard]] bool is_same_surface(const Body& body, std::size_t i, std::size_t k, Vec3 at);
 
 /// A segment that is to be blended.
 struct Job {
@@ -45,10 +50,5 @@ void extend(const Body& body, std::vector<Job>& jobs, std::size_t job, double ra
 [[nodiscard]] Result<csg::Solid> cut_at_ends(const Body& body, const std::vector<Job>& jobs,
                                              std::size_t job, const std::array<EndPlan, 2>& plans,
                                              SourceSpan span);
-
-/// What is left over in corners where three edges of one kind are blended: between the three wedges and the ball that touches
-/// all three faces. Error: more than three faces meet in a corner.
-[[nodiscard]] Result<std::vector<std::pair<csg::Solid, bool>>> corners_of(
-    const Body& body, const std::vector<Job>& jobs, const Form& form, SourceSpan span);
 
 }  // namespace raymo::blends

@@ -15,8 +15,6 @@ namespace {
 
 using solids::Where;
 
-/// A face is in a ball's way when it comes nearer to its centre than the radius by more than this part of it.
-constexpr double kPress = 0x1p-20;
 /// Faces whose normals' sine is smaller somewhere along a curve touch there, and what a ball does is no matter of rolling.
 constexpr double kTouching = 0x1p-6;
 constexpr double kDegrees = 180.0 / std::numbers::pi;
@@ -287,9 +285,14 @@ Fitting fitting_of(const Body& body, const Segment& segment, double radius) {
     double hi = segment.hi;
     const double margin = extent_of(body, segment, radius) / segment.speed();
     if (!segment.is_closed) {
-        // At its ends it is another's concern.
-        lo = std::min(lo + margin, segment.middle());
-        hi = std::max(hi - margin, segment.middle());
+        // In a corner the ball comes to rest, and at other ends it is another's concern.
+        const End& end = segment.ends[segment.ends[0].rest_face ? 0 : 1];
+        if (end.rest_face && segment.rolled() < -kPress * radius)
+            return {Fit::blocked, *end.rest_face};
+        const double first = lo + segment.ends[0].rest;
+        const double last = std::max(first, hi - segment.ends[1].rest);
+        lo = std::clamp(std::min(lo + margin, segment.middle()), first, last);
+        hi = std::clamp(std::max(hi - margin, segment.middle()), first, last);
     }
     // Along a line or a circle only other faces make a difference, along a curve in space all does.
     const int places = segment.space ? 192 : 16;

@@ -10,6 +10,9 @@ namespace raymo::blends {
 /// How far a wedge reaches beyond the faces, as part of its radius: far more than roundings, far less than anything seen.
 inline constexpr double kBeyond = 0x1p-20;
 
+/// A face is in a ball's way when it comes nearer to its centre than the radius by more than this part of it.
+inline constexpr double kPress = 0x1p-20;
+
 /// A wedge in the section of its edge. It reaches a little beyond both faces, to the side where the Boolean does not care, so
 /// that it has no face in common with what it is joined to.
 struct Wedge {
