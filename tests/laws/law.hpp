@@ -65,5 +65,6 @@ void add_volume_laws(std::vector<Law>& laws);
 void add_root_laws(std::vector<Law>& laws);
 void add_blend_laws(std::vector<Law>& laws);
 void add_crossing_laws(std::vector<Law>& laws);
+void add_corner_laws(std::vector<Law>& laws);
 
 }  // namespace raymo::laws

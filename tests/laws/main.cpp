@@ -41,6 +41,7 @@ int main(int argc, char** argv) {
     add_root_laws(laws);
     add_blend_laws(laws);
     add_crossing_laws(laws);
+    add_corner_laws(laws);
 
     int passed = 0, failed = 0;
     std::uint64_t number = 0;
