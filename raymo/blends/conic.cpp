@@ -63,6 +63,7 @@ Level level_of(const Surface& surface) {
         case SurfaceKind::cone:
         case SurfaceKind::wall:
         case SurfaceKind::turned:
+        case SurfaceKind::leaning:
             break;
     }
     return Level(0.0);
