@@ -180,7 +180,7 @@ private:
         return take(scanner_.flag(), out);
     }
     /// The control point that goes on smoothly: the last one, seen from the other side.
-    Vec2 reflected(bool is_known) const {
+    [[nodiscard]] Vec2 reflected(bool is_known) const {
         return is_known ? pen_.at() * 2.0 - control_ : pen_.at();
     }
 

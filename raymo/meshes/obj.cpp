@@ -79,7 +79,7 @@ private:
     [[nodiscard]] static Failure stopped() { return fail(ErrorCode::cancelled, "stopped"); }
     [[nodiscard]] double charged() const {
         return static_cast<double>(points_.size() * sizeof(Vec3) + corners_ * sizeof(double) +
-                                   faces_.size() * sizeof(faces_[0]));
+                                   faces_.size() * sizeof(decltype(faces_)::value_type));
     }
 
     /// Lines that end in a backslash go on in the next.
