@@ -237,27 +237,57 @@ std::vector<bool> free_pieces(const curves::Region& region, Told&& told) {
     return is_free;
 }
 
+/// The same of what is swept to or along a direction, where all pieces count as free-form that go over smoothly into one that is not
+/// is_known(shape), one after another: their wall has no end there that anything could be cut at.
+template <class Known, class Tell>
+std::vector<bool> free_wall_pieces(const curves::Region& region, Known&& is_known, Tell&& tell) {
+    std::vector<bool> is_free = free_pieces(
+        region, [&](const curves::Piece&, const Shape& shape, double) { return is_known(shape); });
+    const auto& pieces = region.pieces();
+    std::vector<std::size_t> open;
+    for (std::size_t i = 0; i < pieces.size(); ++i) {
+        if (is_free[i]) open.push_back(i);
+    }
+    const auto join = [&](std::size_t i) {
+        if (is_free[i] || region.left_side(pieces[i]) == 0.0) return;
+        is_free[i] = true;
+        open.push_back(i);
+    };
+    while (!open.empty()) {
+        const std::size_t i = open.back();
+        open.pop_back();
+        if (!pieces[i].ends_in_corner) join(pieces[i].next);
+        if (!pieces[pieces[i].previous].ends_in_corner) join(pieces[i].previous);
+    }
+    for (std::size_t i = 0; i < pieces.size(); ++i) {
+        const double left = region.left_side(pieces[i]);
+        if (left != 0.0 && !is_free[i]) tell(pieces[i], shape_of(pieces[i]), left);
+    }
+    return is_free;
+}
+
 /// Of a conic sweep: straight lines sweep planes, circles about its axis cones, all others leaning walls.
 void leaning_walls(const solids::ContourSweep& kernel, Faces& faces) {
     faces.plane({0, 0, -1}, {0, 0, -1}, "bottom");
     if (kernel.ratio() > 0.0) faces.plane({0, 0, 1}, {0, 0, 1}, "top");
     const double ratio = kernel.ratio();
-    const auto told = [&](const curves::Piece& piece, const Shape& shape, double left) {
+    const auto is_known = [&](const Shape& shape) {
+        return shape.kind == Shape::line || (shape.kind == Shape::circle && faces.is_round() &&
+                                             norm(shape.centre) <= kShape * shape.radius);
+    };
+    const auto tell = [&](const curves::Piece& piece, const Shape& shape, double left) {
         if (shape.kind == Shape::line) {
             // On the way up a point of the line goes by (ratio - 1) / 2 of itself.
             const Vec2 a = piece.point(0);
             const Vec2 n = normal_of(piece, left);
             faces.plane({a.x, a.y, -1}, {n.x, n.y, 0.5 * (1.0 - ratio) * dot(n, a)}, "wall");
-            return true;
+        } else {
+            faces.cone({shape.radius, -1.0}, {ratio * shape.radius, 1.0}, left * shape.turn,
+                       "wall");
         }
-        if (shape.kind != Shape::circle || !faces.is_round() ||
-            norm(shape.centre) > kShape * shape.radius)
-            return false;
-        faces.cone({shape.radius, -1.0}, {ratio * shape.radius, 1.0}, left * shape.turn, "wall");
-        return true;
     };
     const double apex = -1.0 + 2.0 / (1.0 - ratio);
-    add_runs(kernel.region(), free_pieces(kernel.region(), told),
+    add_runs(kernel.region(), free_wall_pieces(kernel.region(), is_known, tell),
              [&](auto spans, bool is_closed, double left) {
                  faces.leaning(std::move(spans), is_closed, left, apex, "wall");
              });
@@ -267,23 +297,22 @@ void walls(const solids::ContourSweep& kernel, Faces& faces) {
     if (kernel.ratio() != 1.0) return leaning_walls(kernel, faces);
     faces.plane({0, 0, -1}, {0, 0, -1}, "bottom");
     faces.plane({0, 0, 1}, {0, 0, 1}, "top");
-    const auto told = [&](const curves::Piece& piece, const Shape& shape, double left) {
+    const auto is_known = [&](const Shape& shape) {
+        return shape.kind != Shape::other || !faces.is_round();
+    };
+    const auto tell = [&](const curves::Piece& piece, const Shape& shape, double left) {
         if (shape.kind == Shape::line) {
             const Vec2 a = piece.point(0);
             const Vec2 n = normal_of(piece, left);
             faces.plane({a.x, a.y, 0}, {n.x, n.y, 0}, "wall");
-            return true;
-        }
-        if (!faces.is_round()) {
+        } else if (faces.is_round()) {
+            faces.cylinder({shape.centre.x, shape.centre.y, 0}, shape.radius, left * shape.turn,
+                           "wall");
+        } else {
             faces.unknown(kStretched);
-            return true;
         }
-        if (shape.kind != Shape::circle) return false;
-        faces.cylinder({shape.centre.x, shape.centre.y, 0}, shape.radius, left * shape.turn,
-                       "wall");
-        return true;
     };
-    add_runs(kernel.region(), free_pieces(kernel.region(), told),
+    add_runs(kernel.region(), free_wall_pieces(kernel.region(), is_known, tell),
              [&](auto spans, bool is_closed, double left) {
                  faces.swept(std::move(spans), is_closed, left, "wall", false);
              });

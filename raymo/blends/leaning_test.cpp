@@ -28,13 +28,6 @@ std::vector<curves::Span2> circle(double radius, double x) {
     }
     return out;
 }
-csg::Solid conic(std::vector<curves::Span2> spans, double height, double top) {
-    curves::Outline outline;
-    outline.curves.push_back({std::move(spans), true});
-    return made("conic",
-                {std::make_shared<const curves::Outline>(std::move(outline)), height, top, false});
-}
-
 Vec2 point_of(const curves::Span2& s, double u) {
     const double v = 1.0 - u;
     const double b[4] = {v * v * v, 3 * v * v * u, 3 * v * u * u, u * u * u};
@@ -45,6 +38,26 @@ Vec2 point_of(const curves::Span2& s, double u) {
         w += s.w[i] * b[i];
     }
     return p * (1.0 / w);
+}
+
+/// A rectangle with round corners, whose lower left corner is at (x, y).
+std::vector<curves::Span2> rounded_rectangle(double x, double y) {
+    const std::vector<curves::Span2> arcs = circle(1.0, 0.0);
+    const Vec2 centres[] = {{x + 7, y + 5}, {x + 1, y + 5}, {x + 1, y + 1}, {x + 7, y + 1}};
+    std::vector<curves::Span2> out;
+    for (std::size_t i = 0; i < 4; ++i) {
+        out.push_back(
+            curves::mapped(arcs[i], {.xx = 1, .x = centres[i].x, .yy = 1, .y = centres[i].y}));
+        const Vec2 next = point_of(arcs[(i + 1) % 4], 0.0) + centres[(i + 1) % 4];
+        out.push_back(curves::segment(point_of(out.back(), 1.0), next));
+    }
+    return out;
+}
+csg::Solid conic(std::vector<curves::Span2> spans, double height, double top) {
+    curves::Outline outline;
+    outline.curves.push_back({std::move(spans), true});
+    return made("conic",
+                {std::make_shared<const curves::Outline>(std::move(outline)), height, top, false});
 }
 
 TEST_CASE("leaning walls: a circle about the axis is a cone") {
@@ -168,8 +181,11 @@ TEST_CASE("leaning walls: the fillet of a boss is what its balls leave") {
         std::vector<curves::Span2> spans;
         double height, top, radius;
     };
-    const Case cases[] = {
-        {blob(), 9.0, 0.7, 1.0}, {blob(), 7.0, 0.0, 0.5}, {circle(3.0, 2.0), 8.0, 0.5, 1.5}};
+    const Case cases[] = {{blob(), 9.0, 0.7, 1.0},
+                          {blob(), 7.0, 0.0, 0.5},
+                          {circle(3.0, 2.0), 8.0, 0.5, 1.5},
+                          {rounded_rectangle(0, 0), 5.0, 0.7, 0.3},
+                          {rounded_rectangle(-4, -3), 5.0, 0.7, 0.6}};
     const Affine frames[] = {{},
                              rotation(unit(Vec3{1, 2, 3}), 50) * scaling({3, 3, 3}),
                              reflection(unit(Vec3{1, 1, 0})) * translation({9, 0, 4})};
@@ -190,14 +206,14 @@ TEST_CASE("leaning walls: the fillet of a boss is what its balls leave") {
                              12 * std::fmod(i * 0.75487, 1.0) - 6};
                 bool is_wall = false;
                 const double truth = boss.high(p, is_wall);
-                ++judged;
+                judged += truth > 0.0 && !is_wall ? 1 : 0;
                 CAPTURE(p.x);
                 CAPTURE(p.y);
                 const double chord =
                     solid.chord(frame(Vec3{p.x, p.y, 0}), unit(frame.linear * Vec3{0, 0, 1}));
                 CHECK(chord / size == doctest::Approx(2.0 + truth).epsilon(is_wall ? 1e-4 : 1e-9));
             }
-            CHECK(judged > 150);
+            CHECK(judged > 8);
         }
     }
 }
@@ -222,6 +238,11 @@ TEST_CASE("leaning walls: a rounded cone that is told as free") {
 
 /// All edges and corners of a sweep with one bowed wall; it leans by so little that it is a prism but for 1e-6.
 TEST_CASE("leaning walls: edges along rulings, and corners") {
+    for (const double lean : {1e-6, 1e-7, 1e-8}) {
+        // However far away the apex is.
+        const csg::Solid aside = conic(circle(4.0, 1.0), 5.0, 1.0 - lean);
+        CHECK(blended_edges(aside, Edges::convex, ball(0.4)).has_value());
+    }
     const std::vector<curves::Span2> bowed{
         curves::cubic({0, 0}, {3, 3}, {7, 3}, {10, 0}), curves::segment({10, 0}, {10, 10}),
         curves::segment({10, 10}, {0, 10}), curves::segment({0, 10}, {0, 0})};
@@ -236,7 +257,7 @@ TEST_CASE("leaning walls: edges along rulings, and corners") {
         CAPTURE(from.x);
         CAPTURE(from.y);
         const double truth = other.chord(from, {0, 0, 1});
-        if (truth < 3.6) continue;
+        if (truth < 3.0) continue;
         CHECK(one.chord(from, {0, 0, 1}) == doctest::Approx(truth).epsilon(1e-4));
     }
 }

@@ -113,15 +113,22 @@ Run::Nearest Run::nearest(Vec2 p) const {
     return {j.value, normal, dot(p - j.value, normal), u};
 }
 
-Run::Seen Run::seen(Vec3 d, double height) const {
+Run::Seen Run::seen(Vec3 p, double height) const {
+    const Vec2 q{p.x, p.y};
+    // The square of the distance from the ray, without the cancellation of a far eye.
+    const auto off = [&](Vec2 at) {
+        const double along =
+            dot(q - at, at) + p.z * height;  // of p from `at`, times the ray's length
+        const double square = dot(at, at) + height * height;
+        if (along + square < 0.0) return dot(q, q) + (p.z + height) * (p.z + height);
+        return dot(q - at, q - at) + p.z * p.z - along * along / square;
+    };
     std::size_t closest = 0;
-    double most = -std::numeric_limits<double>::infinity();
-    const auto ray_to = [&](Vec2 p) { return Vec3{p.x, p.y, height}; };
+    double least = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < samples_.size(); ++i) {
-        const Vec3 ray = ray_to(samples_[i]);
-        const double cosine = dot(d, ray) / norm(ray);
-        if (!(cosine > most)) continue;
-        most = cosine;
+        const double here = off(samples_[i]);
+        if (!(here < least)) continue;
+        least = here;
         closest = i;
     }
     const double at = static_cast<double>(closest) / kSamples;
@@ -131,19 +138,24 @@ Run::Seen Run::seen(Vec3 d, double height) const {
         lo = std::max(lo, 0.0);
         hi = std::min(hi, end());
     }
-    // Newton's method on (d.D') (D.D) - (d.D) (D.D'), held between the neighbours of the closest sample.
+    // Newton's method on (d.D') (D.D) - (d.D) (D.D') by h^2, with d = (q, h + z) and D = (P, h), held between the neighbours of
+    // the closest sample.
+    const double flat = 1.0 / (height * height);
+    const double tilt = p.z / height;
     double u = at;
     Jet j = jet(u);
     for (int i = 0; i < 60; ++i) {
-        const Vec3 ray = ray_to(j.value);
-        const Vec2 flat{d.x, d.y};
-        const double along = dot(d, ray);
         const double turn = dot(j.value, j.first);
-        const double square = dot(ray, ray);
-        const double slope = dot(flat, j.first) * square - along * turn;
+        const double turn_first = dot(j.first, j.first) + dot(j.value, j.second);
+        const double square = dot(j.value, j.value);
+        const double along = dot(q, j.value);
+        const double slope = dot(q - j.value, j.first) +
+                             (square * dot(q, j.first) - along * turn) * flat - tilt * turn;
         (slope > 0.0 ? lo : hi) = u;
-        const double bend = dot(flat, j.second) * square + dot(flat, j.first) * turn -
-                            along * (dot(j.first, j.first) + dot(j.value, j.second));
+        const double bend =
+            dot(q - j.value, j.second) - dot(j.first, j.first) +
+            (turn * dot(q, j.first) + square * dot(q, j.second) - along * turn_first) * flat -
+            tilt * turn_first;
         double next = bend < 0.0 ? u - slope / bend : 0.5 * (lo + hi);
         if (!(next > lo && next < hi)) next = 0.5 * (lo + hi);
         if (std::fabs(next - u) <= 0x1p-52 * (1.0 + std::fabs(u))) break;

@@ -24,13 +24,13 @@ public:
     /// The nearest point. On the run's evolute one of several. Cost: about 1 us for each hundred spans.
     [[nodiscard]] Nearest nearest(Vec2 p) const;
 
-    /// The point that is nearest to the line of sight `d`, x and y beside it and z along, of an eye at `height` above the plane,
-    /// over the origin: the one seen at the least angle from d, on the run itself.
+    /// The point that is seen at the least angle from p, x and y in the plane and z above it, by an eye `height` below the
+    /// plane's origin; on the run itself.
     struct Seen {
         Vec2 point;
         Vec2 normal;  ///< unit, to the right of the run
     };
-    [[nodiscard]] Seen seen(Vec3 d, double height) const;
+    [[nodiscard]] Seen seen(Vec3 p, double height) const;
 
     /// Where a function of the plane changes its sign along the run and, for 2^-6 of its size, straight on beyond its
     /// ends. The function may change by no more than the way, as distances do. Two changes that are closer than 1/64 of the

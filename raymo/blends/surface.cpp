@@ -30,8 +30,7 @@ struct Ruling {
 };
 Ruling ruling(const Surface& s, Vec3 p) {
     const Vec3 d = p - s.point;
-    const auto seen =
-        s.run->seen({dot(d, s.across), dot(d, s.up), dot(d, s.axis) + s.height}, s.height);
+    const auto seen = s.run->seen({dot(d, s.across), dot(d, s.up), dot(d, s.axis)}, s.height);
     // Across the ruling (P, h), too.
     const Vec3 normal = s.across * seen.normal.x + s.up * seen.normal.y -
                         s.axis * (dot(seen.normal, seen.point) / s.height);
