@@ -5,7 +5,6 @@
 // values there and at 0 and 1 tell where and how often it crosses zero.
 #pragma once
 
-#include <array>
 #include <cmath>
 #include <limits>
 #include <string>
@@ -14,12 +13,21 @@
 
 namespace raymo::laws {
 
+/// Numbered by int, as degrees are.
+template <class T, int M>
+struct Row {
+    T items[M];
+
+    T& operator[](int i) { return items[i]; }
+    const T& operator[](int i) const { return items[i]; }
+};
+
 /// p and its derivatives (without their constant factors) in numbers of type F, of at least 64 bits.
 template <class F, int N>
 class RootOracle {
 public:
     explicit RootOracle(const curves::Bernstein<N>& p) {
-        std::array<F, N + 1> d;
+        Row<F, N + 1> d;
         for (int i = 0; i <= N; ++i) {
             d[i] = p[static_cast<std::size_t>(i)];
             size_ = std::max(size_, std::fabs(p[static_cast<std::size_t>(i)]));
@@ -33,10 +41,10 @@ public:
             for (int i = 0; i < n; ++i) d[i] = d[i + 1] - d[i];
         }
         count_ = 0;
-        std::array<F, N + 2> before;
+        Row<F, N + 2> before;
         for (int n = 1; n < N; ++n) {
             int found = 0;
-            std::array<F, N + 2> zeros;
+            Row<F, N + 2> zeros;
             for (int i = 0; i <= count_; ++i) {
                 const F lo = i == 0 ? F(0) : before[i - 1];
                 const F hi = i == count_ ? F(1) : before[i];
@@ -101,8 +109,8 @@ private:
         return u;
     }
 
-    std::array<std::array<F, N + 1>, N + 1> a_;  ///< of the derivative of degree n, times binomials
-    std::array<F, N + 1> place_, extreme_;
+    Row<Row<F, N + 1>, N + 1> a_;  ///< of the derivative of degree n, times binomials
+    Row<F, N + 1> place_, extreme_;
     int count_;
     double size_ = 0.0;
 };
