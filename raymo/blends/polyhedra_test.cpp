@@ -90,6 +90,20 @@ TEST_CASE("polyhedra: a conic sweep of a polygon") {
     check(leaning(aside, 6, 0.6), planes_of(aside, 6, 0.6), 8, 0.3, 12);
 }
 
+TEST_CASE("polyhedra: two that meet flush, whose edges and balls lie in the plane between them") {
+    const std::vector<Vec2> base{{4, 0}, {0, 4}, {-4, 0}, {0, -4}};
+    const csg::Solid upper = leaning(base, 6, 0.0);
+    std::vector<Plane> planes = planes_of(base, 6, 0.0);
+    planes.erase(planes.begin());
+    const std::size_t count = planes.size();
+    for (std::size_t i = 0; i < count; ++i) {
+        const Vec3 n = planes[i].normal;
+        planes.push_back({Vec3{n.x, n.y, -n.z}, planes[i].offset});
+    }
+    const csg::Solid lower = mapped(upper, reflection({0, 0, 1}));
+    check(csg::boolean(csg::Op::unite, {upper, lower}), planes, 7, 0.5, 12);
+}
+
 TEST_CASE("polyhedra: a conic sweep of a circle is a cone") {
     curves::Outline outline;
     outline.curves.push_back(curves::full_circle({}, 3.0));

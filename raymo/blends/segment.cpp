@@ -86,9 +86,20 @@ private:
             const Vec3 w = na * sa + nb * sb;
             // Along the bisector, as far from both as the step.
             const double sine = std::fabs(dot(w, na)) / norm(w);
-            const Vec3 p = at + w * (step / (std::max(sine, kSmooth) * norm(w)));
-            const Where where =
-                operand == kBody ? body_.where(p) : body_.where_in_operand(operand, p);
+            const double far = step / std::max(sine, kSmooth);
+            const auto where_at = [&](Vec3 way) {
+                const Vec3 p = at + way * far;
+                return operand == kBody ? body_.where(p) : body_.where_in_operand(operand, p);
+            };
+            const Vec3 middle = unit(w);
+            Where where = where_at(middle);
+            if (where == Where::on) {
+                // Leaves may meet flush there, which is no boundary: both sides tell the same then.
+                const double turn = 0.25 * std::asin(std::min(sine, 1.0));
+                const Vec3 beside = unit(na * sa - nb * sb) * std::sin(turn);
+                where = where_at(middle * std::cos(turn) + beside);
+                if (where_at(middle * std::cos(turn) - beside) != where) where = Where::on;
+            }
             if (where == Where::on) return kUnknownSectors;
             if (where == Where::in) out = static_cast<Sectors>(out | (1U << sector));
         }

@@ -79,6 +79,15 @@ Fitting at_contact(const Body& body, const Segment& segment, const Touch& touch,
     return {};
 }
 
+/// Where a ball's centre is; also where leaves meet flush there, which is no boundary: both sides tell the same then.
+Where at_centre(const Body& body, const Touch& touch, double radius) {
+    const Where where = body.where(touch.centre);
+    if (where != Where::on) return where;
+    const Vec3 step = (touch.outward[0] - touch.outward[1]) * (0x1p-14 * radius);
+    const Where beside = body.where(touch.centre + step);
+    return body.where(touch.centre - step) == beside ? beside : Where::on;
+}
+
 /// Whether a face is met at an end of the segment that is within `reach` of t: there the wedge is cut by it.
 bool is_end(const Segment& segment, std::size_t face, double t, double reach) {
     if (segment.is_closed) return false;
@@ -311,7 +320,7 @@ Fitting fitting_of(const Body& body, const Segment& segment, double radius) {
         if (const Fitting f = at_contact(body, segment, *touch, radius); f.fit != Fit::good)
             return f;
         // A ball as large as the whole solid may have its foot on another face where that ends.
-        if (body.where(touch->centre) != (segment.is_convex ? Where::in : Where::out))
+        if (at_centre(body, *touch, radius) != (segment.is_convex ? Where::in : Where::out))
             return {Fit::none, 0};
         if (lo == hi) break;
     }
