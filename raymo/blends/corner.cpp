@@ -229,25 +229,21 @@ std::optional<Corner> joined(const Body& body, const std::vector<Segment>& segme
                dot(outward(body, a, one.point), outward(body, b, one.point)) > 0.0;
     };
     // Both rings from behind the edge on to before it, and the other one the other way round.
+    const auto open_at_edge = [&](Corner& corner) {
+        const auto next = static_cast<std::ptrdiff_t>(place_of(corner)) + 1;
+        std::rotate(corner.sides.begin(), corner.sides.begin() + next, corner.sides.end());
+        std::rotate(corner.edges.begin(), corner.edges.begin() + next, corner.edges.end());
+        corner.edges.pop_back();
+    };
     Corner out = one;
-    const std::size_t at = place_of(one);
-    std::rotate(out.sides.begin(), out.sides.begin() + static_cast<std::ptrdiff_t>(at) + 1,
-                out.sides.end());
-    std::rotate(out.edges.begin(), out.edges.begin() + static_cast<std::ptrdiff_t>(at) + 1,
-                out.edges.end());
-    out.edges.pop_back();
+    open_at_edge(out);
     if (is_same(other.sides[place_of(other)], out.sides.back())) {
         // Edges are between sides i and i + 1.
         std::reverse(other.sides.begin(), other.sides.end());
         std::reverse(other.edges.begin(), other.edges.end());
         std::rotate(other.edges.begin(), other.edges.begin() + 1, other.edges.end());
     }
-    const std::size_t there = place_of(other);
-    std::rotate(other.sides.begin(), other.sides.begin() + static_cast<std::ptrdiff_t>(there) + 1,
-                other.sides.end());
-    std::rotate(other.edges.begin(), other.edges.begin() + static_cast<std::ptrdiff_t>(there) + 1,
-                other.edges.end());
-    other.edges.pop_back();
+    open_at_edge(other);
     if (!is_same(other.sides.front(), out.sides.back()) ||
         !is_same(other.sides.back(), out.sides.front())) {
         return std::nullopt;

@@ -176,13 +176,7 @@ TEST_CASE("corners: planes that miss one point by little or more make one corner
         for (const double sign : {-1.0, 1.0}) {
             CAPTURE(exponent);
             CAPTURE(sign);
-            std::vector<Plane> planes{{{0, 0, -1}, 0.0}};
-            for (std::size_t i = 0; i < skew.size(); ++i) {
-                const Vec3 a{skew[i].x, skew[i].y, 0};
-                const Vec2 b = skew[(i + 1) % skew.size()];
-                const Vec3 n = unit(cross(Vec3{b.x, b.y, 0} - a, Vec3{0, 0, 5} - a));
-                planes.push_back({n, dot(n, a)});
-            }
+            std::vector<Plane> planes = planes_of(skew, 5, 0.0);
             planes[1].offset += sign * std::pow(10.0, exponent);
             const auto made = blended_edges(within(planes, 9), Edges::convex, ball(r));
             if (!made) FAIL(made.error().message);
@@ -206,13 +200,8 @@ TEST_CASE("corners: short edges in the tip of a needle, where balls rest far bel
     for (int trial = 0; trial < 20; ++trial) {
         CAPTURE(trial);
         const std::vector<Vec2> base = regular(10, wide);
-        std::vector<Plane> planes{{{0, 0, -1}, 0.0}};
-        for (std::size_t i = 0; i < base.size(); ++i) {
-            const Vec3 a{base[i].x, base[i].y, 0};
-            const Vec2 b = base[(i + 1) % base.size()];
-            const Vec3 n = unit(cross(Vec3{b.x, b.y, 0} - a, Vec3{0, 0, high} - a));
-            planes.push_back({n, dot(n, a) + number(-0.002, 0.002)});
-        }
+        std::vector<Plane> planes = planes_of(base, high, 0.0);
+        for (std::size_t i = 1; i < planes.size(); ++i) planes[i].offset += number(-0.002, 0.002);
         const auto made = blended_edges(within(planes, 4), Edges::convex, ball(r));
         if (!made) FAIL(made.error().message);
         Traced solid(made->solid);

@@ -50,31 +50,6 @@ void check(const std::vector<Plane>& planes, double size, double r, std::size_t 
     check(within(planes, size), planes, size, r, edges);
 }
 
-/// A polygon, counter-clockwise, that shrinks to `ratio` times its size at the height `high`.
-csg::Solid leaning(const std::vector<Vec2>& points, double high, double ratio) {
-    std::vector<curves::Span2> spans;
-    for (std::size_t i = 0; i < points.size(); ++i)
-        spans.push_back(curves::segment(points[i], points[(i + 1) % points.size()]));
-    curves::Outline outline;
-    outline.curves.push_back({std::move(spans), true});
-    return made("conic",
-                {std::make_shared<const curves::Outline>(std::move(outline)), high, ratio, false});
-}
-/// Its planes.
-std::vector<Plane> planes_of(const std::vector<Vec2>& points, double high, double ratio) {
-    std::vector<Plane> planes{{Vec3{0, 0, -1}, 0.0}};
-    if (ratio > 0.0) planes.push_back({Vec3{0, 0, 1}, high});
-    for (std::size_t i = 0; i < points.size(); ++i) {
-        const Vec2 a = points[i];
-        const Vec2 b = points[(i + 1) % points.size()];
-        const Vec3 base{a.x, a.y, 0};
-        const Vec3 n =
-            unit(cross(Vec3{b.x, b.y, 0} - base, Vec3{ratio * a.x, ratio * a.y, high} - base));
-        planes.push_back({n, dot(n, base)});
-    }
-    return planes;
-}
-
 TEST_CASE("polyhedra: a conic sweep of a polygon") {
     const std::vector<Vec2> tapered{{-3, -2}, {3, -2}, {3, 2}, {-3, 2}};
     check(leaning(tapered, 4, 0.7), planes_of(tapered, 4, 0.7), 5, 0.5, 12);

@@ -54,15 +54,34 @@ inline csg::Solid within(const std::vector<Plane>& planes, double size) {
     return csg::boolean(csg::Op::intersection, sides);
 }
 
-/// Over a polygon at z = 0, counter-clockwise, with its tip on the z axis.
-inline csg::Solid pyramid(const std::vector<Vec2>& base, double high) {
+/// A polygon, counter-clockwise, that shrinks to `ratio` times its size at the height `high`.
+inline csg::Solid leaning(const std::vector<Vec2>& points, double high, double ratio) {
     std::vector<curves::Span2> spans;
-    for (std::size_t i = 0; i < base.size(); ++i)
-        spans.push_back(curves::segment(base[i], base[(i + 1) % base.size()]));
+    for (std::size_t i = 0; i < points.size(); ++i)
+        spans.push_back(curves::segment(points[i], points[(i + 1) % points.size()]));
     curves::Outline outline;
     outline.curves.push_back({std::move(spans), true});
     return made("conic",
-                {std::make_shared<const curves::Outline>(std::move(outline)), high, 0.0, false});
+                {std::make_shared<const curves::Outline>(std::move(outline)), high, ratio, false});
+}
+/// Its planes.
+inline std::vector<Plane> planes_of(const std::vector<Vec2>& points, double high, double ratio) {
+    std::vector<Plane> planes{{Vec3{0, 0, -1}, 0.0}};
+    if (ratio > 0.0) planes.push_back({Vec3{0, 0, 1}, high});
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const Vec2 a = points[i];
+        const Vec2 b = points[(i + 1) % points.size()];
+        const Vec3 base{a.x, a.y, 0};
+        const Vec3 n =
+            unit(cross(Vec3{b.x, b.y, 0} - base, Vec3{ratio * a.x, ratio * a.y, high} - base));
+        planes.push_back({n, dot(n, base)});
+    }
+    return planes;
+}
+
+/// Over a polygon at z = 0, counter-clockwise, with its tip on the z axis.
+inline csg::Solid pyramid(const std::vector<Vec2>& base, double high) {
+    return leaning(base, high, 0.0);
 }
 
 /// The first corner on the x axis.
