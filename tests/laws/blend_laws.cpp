@@ -216,26 +216,14 @@ private:
         const RealVec from = real(line.origin);
         const RealVec step = real(line.direction);
         const Real reach = r(2 * kReach * pair_.scale) / norm(step);
-        Real last = -reach;
-        bool was_in = false;
-        const auto between = [&](Real to) {
-            const Real until = std::min(to, reach);
-            if (until > last) {
-                for (const double s : {1e-7, 0.5, 1 - 1e-7}) {
-                    judge(from + step * (last + (until - last) * r(s)), was_in, rounding, "ray at");
-                }
-            }
-            last = std::max(last, until);
-        };
-        for (const trace::PartSpan& span : blend.spans(line)) {
-            between(r(span.enter.t));
-            was_in = true;
-            between(r(span.exit.t));
-            was_in = false;
+        const auto& spans = blend.spans(line);
+        ask_stretches(spans, reach, 1e-7, [&](Real t, bool is_in) {
+            judge(from + step * t, is_in, rounding, "ray at");
+        });
+        for (const trace::PartSpan& span : spans) {
             end(line, span.enter.t, span.enter.normal);
             end(line, span.exit.t, span.exit.normal);
         }
-        between(reach);
     }
 
     /// An end of a span on the tube is as far from the spine as the radius, and its normal points to it or away.

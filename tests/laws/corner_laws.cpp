@@ -336,26 +336,9 @@ private:
         line_ = line;
         tracer.spans(line, spans_);
         if (spans_.empty()) spans_.resize(1);
-        const double reach = 3 * kSize;
-        double last = -reach;
-        bool was_in = false;
-        const auto between = [&](double to) {
-            const double until = std::min(to, reach);
-            if (until > last) {
-                for (const double f : {1e-7, 0.5, 1 - 1e-7}) {
-                    judge(line.origin + line.direction * (last + (until - last) * f), was_in,
-                          margin, "ray at");
-                }
-            }
-            last = std::max(last, until);
-        };
-        for (const trace::PartSpan& span : spans_[0]) {
-            between(span.enter.t);
-            was_in = true;
-            between(span.exit.t);
-            was_in = false;
-        }
-        between(reach);
+        ask_stretches(spans_[0], r(3 * kSize), 1e-7, [&](Real t, bool is_in) {
+            judge(line.origin + line.direction * static_cast<double>(t), is_in, margin, "ray at");
+        });
     }
 
     void judge(Vec3 at, bool is_in, Real margin, const char* what) {

@@ -141,27 +141,9 @@ public:
             const Ray line{at - d * random_.uniform(0, 2), d};
             tracer.spans(line, spans_);
             if (spans_.empty()) spans_.resize(1);
-            double last = -2 * kNear;
-            bool was_in = false;
-            const auto between = [&](double to) {
-                const double until = std::min(to, 2 * kNear);
-                if (until > last) {
-                    for (const double f : {1e-6, 0.5, 1 - 1e-6}) {
-                        judge(
-                            rolled,
-                            real(line.origin) + real(line.direction) * r(last + (until - last) * f),
-                            was_in, "ray at");
-                    }
-                }
-                last = std::max(last, until);
-            };
-            for (const trace::PartSpan& span : spans_[0]) {
-                between(span.enter.t);
-                was_in = true;
-                between(span.exit.t);
-                was_in = false;
-            }
-            between(2 * kNear);
+            ask_stretches(spans_[0], r(2 * kNear), 1e-6, [&](Real t, bool is_in) {
+                judge(rolled, real(line.origin) + real(line.direction) * t, is_in, "ray at");
+            });
         }
         return true;
     }

@@ -1,7 +1,9 @@
 // The tracer's answers for a ray, against a model's own judge of points.
 #pragma once
 
+#include <algorithm>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -46,5 +48,25 @@ inline constexpr double kLoose = 0x1p24;
 /// model, or an equal one). `size`: largest coordinate of the model; `rounding`: kTight or kLoose.
 void judge_ray(Traced& traced, const Model& judge, const Ray& ray, double size, double rounding,
                Random& random, Tally& tally);
+
+/// ask(t, is_in) just behind the beginning, in the middle and just before the end of each stretch of a line, in a part or not, from
+/// t = -reach to reach. `inset`: how near to its ends, as part of the stretch.
+template <class Ask>
+void ask_stretches(std::span<const trace::PartSpan> spans, Real reach, double inset, Ask&& ask) {
+    Real last = -reach;
+    const auto stretch = [&](double to, bool is_in) {
+        const Real until = std::min(static_cast<Real>(to), reach);
+        if (until > last) {
+            for (const double f : {inset, 0.5, 1 - inset})
+                ask(last + (until - last) * static_cast<Real>(f), is_in);
+        }
+        last = std::max(last, until);
+    };
+    for (const trace::PartSpan& span : spans) {
+        stretch(span.enter.t, false);
+        stretch(span.exit.t, true);
+    }
+    stretch(static_cast<double>(reach), false);
+}
 
 }  // namespace raymo::laws
