@@ -1,10 +1,13 @@
 #include "raymo/blends/vertex.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
 
+#include "raymo/blends/corner.hpp"
 #include "raymo/blends/make.hpp"
 
 namespace raymo::blends {
@@ -17,6 +20,7 @@ constexpr double kLongestRun = 32.0;
 constexpr Sectors kAll = 0xf;
 constexpr Sectors kOnlyA = 0xc;  // inside a: bits 2 and 3
 constexpr Sectors kOnlyB = 0xa;  // inside b: bits 1 and 3
+constexpr Sectors kNothing = 0;
 
 bool has_face(const Body& body, const Segment& s, std::size_t face, Vec3 at) {
     return is_same_surface(body, s.face_a, face, at) || is_same_surface(body, s.face_b, face, at);
@@ -83,6 +87,64 @@ Result<csg::Solid> on_own_side(const Body& body, csg::Solid wedge, const Segment
     return csg::boolean(csg::Op::difference, {std::move(wedge), std::move(lost)}, span);
 }
 
+/// Whether a face lies in the surface of one that the plan has.
+bool is_among(const Body& body, const EndPlan& plan, std::size_t face, Vec3 at) {
+    return is_same_surface(body, plan.face, face, at) ||
+           std::any_of(plan.also.begin(), plan.also.end(),
+                       [&](std::size_t k) { return is_same_surface(body, k, face, at); });
+}
+
+/// Whether about the end of an edge, with nothing beyond it, there is what its own two faces bound and the others cut, each of
+/// them by itself: looked at in directions all around.
+bool is_cut_by_all(const Body& body, const Segment& segment, std::size_t end, const EndPlan& plan) {
+    constexpr int kDirections = 512;
+    constexpr double kClear = 0.02;  // directions this near to a face are not asked about
+    const Vec3 at = segment.ends[end].point;
+    const double step = 0x1p-14 * (segment.hi - segment.lo) * segment.speed();
+    const Vec3 back = segment.tangent(segment.ends[end].at) * (end == 0 ? 1.0 : -1.0);
+    const auto normal = [&](std::size_t face) { return body.faces()[face].surface.normal(at); };
+    const Vec3 a = normal(segment.face_a) * (segment.edge.a.side * segment.sign());
+    const Vec3 b = normal(segment.face_b) * (segment.edge.b.side * segment.sign());
+    std::vector<Vec3> others;
+    others.reserve(plan.also.size() + 1);
+    const auto add = [&](std::size_t face) {
+        const Vec3 n = normal(face);
+        others.push_back(dot(n, back) < 0.0 ? n : -n);
+    };
+    add(plan.face);
+    for (const std::size_t face : plan.also) add(face);
+    for (int i = 0; i < kDirections; ++i) {
+        // A spiral of equal steps in height and by the golden angle.
+        const double z = (2.0 * i + 1.0) / kDirections - 1.0;
+        const double turn = i * std::numbers::pi * (3.0 - std::sqrt(5.0));
+        const double r = std::sqrt(1.0 - z * z);
+        const Vec3 d{r * std::cos(turn), r * std::sin(turn), z};
+        double clear = std::min(std::fabs(dot(a, d)), std::fabs(dot(b, d)));
+        bool is_in = dot(a, d) < 0.0 || dot(b, d) < 0.0;
+        for (const Vec3& n : others) {
+            clear = std::min(clear, std::fabs(dot(n, d)));
+            is_in = is_in && dot(n, d) < 0.0;
+        }
+        if (clear < kClear) continue;
+        const solids::Where where = body.where(at + d * step);
+        if (where != solids::Where::on &&
+            (where == solids::Where::in) != (is_in != segment.is_convex))
+            return false;
+    }
+    return true;
+}
+
+Failure mixed_corner(const Body& body, const Segment& segment, std::size_t end) {
+    return fail(
+        ErrorCode::bad_argument,
+        fmt::format(
+            "the edge of {} and {} ends at {}, where convex and concave edges go on from it; "
+            "balls can not be rolled to there",
+            body.name_of(body.faces()[segment.face_a]), body.name_of(body.faces()[segment.face_b]),
+            told(body, segment.ends[end].point)),
+        "choose other edges with `near` or `where`");
+}
+
 }  // namespace
 
 bool is_same_place(Vec3 a, Vec3 b, double size) {
@@ -145,7 +207,8 @@ Result<csg::Solid> inner_side(const Surface& s, Vec3 at, double reach, SourceSpa
     return fail(ErrorCode::evaluation, "unknown surface");
 }
 
-EndPlan plan_of(const Body& body, const std::vector<Job>& jobs, std::size_t job, std::size_t end) {
+Result<EndPlan> plan_of(const Body& body, const std::vector<Job>& jobs, std::size_t job,
+                        std::size_t end) {
     const Segment& s = jobs[job].segment;
     const End& at = s.ends[end];
     if (at.beyond == kAll) {
@@ -153,22 +216,27 @@ EndPlan plan_of(const Body& body, const std::vector<Job>& jobs, std::size_t job,
         for (const std::size_t f : at.faces) {
             const Surface& surface = body.faces()[f].surface;
             if (std::fabs(dot(surface.normal(at.point), s.tangent(at.at))) > kSmooth)
-                return {Ending::run_on, f, std::nullopt};
+                return EndPlan{Ending::run_on, f, {}, std::nullopt};
         }
-        return {Ending::flat, 0, std::nullopt};
+        return EndPlan{};
     }
     EndPlan plan;
     for (const std::size_t f : at.faces) {
         const Surface& surface = body.faces()[f].surface;
         const Vec3 n = surface.normal(at.point);
         if (std::fabs(dot(n, s.tangent(at.at))) <= kSmooth) continue;
-        if (plan.ending == Ending::flat) plan = {Ending::cut, f, std::nullopt};
+        if (plan.ending == Ending::flat) {
+            plan = {Ending::cut, f, {}, std::nullopt};
+        } else if (at.beyond == kNothing && !is_among(body, plan, f, at.point)) {
+            plan.also.push_back(f);
+        }
         if (at.beyond != kOnlyA && at.beyond != kOnlyB) continue;
         const std::size_t stays = at.beyond == kOnlyA ? s.face_a : s.face_b;
         if (const auto next = job_of(body, jobs, job, at.point, stays, f)) {
-            return {Ending::mitre, f, next};
+            return EndPlan{Ending::mitre, f, {}, next};
         }
     }
+    if (!plan.also.empty() && !is_cut_by_all(body, s, end, plan)) return mixed_corner(body, s, end);
     return plan;
 }
 
@@ -190,6 +258,9 @@ void extend(const Body& body, std::vector<Job>& jobs, std::size_t job, double ra
         }
         const double limit = kLongestRun * extent / s.speed();
         double run = reach_past(body, s, radius, end, body.faces()[plan.face].surface, limit);
+        for (const std::size_t face : plan.also)
+            run =
+                std::max(run, reach_past(body, s, radius, end, body.faces()[face].surface, limit));
         run += 0x1p-10 * extent / s.speed();
         if (plan.next) {
             // Along both edges the mitre's tip is as far away as half the angle between them says.
@@ -229,6 +300,10 @@ Result<csg::Solid> cut_at_ends(const Body& body, const std::vector<Job>& jobs, s
         if (plan.ending != Ending::cut && plan.ending != Ending::mitre) continue;
         solid = on_own_side(body, std::move(*solid), self.segment, end, plan.face, reach,
                             plan.next ? jobs[*plan.next].solid : csg::Solid{}, span);
+        for (const std::size_t face : plan.also) {
+            if (!solid) return solid;
+            solid = on_own_side(body, std::move(*solid), self.segment, end, face, reach, {}, span);
+        }
         if (!solid) return solid;
     }
     return solid;

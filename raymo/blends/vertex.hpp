@@ -25,16 +25,18 @@ struct Job {
 enum class Ending : std::uint8_t {
     flat,    ///< cut across: the edge is continued smoothly, or nothing is known
     run_on,  ///< into what the Boolean makes of it anyway
-    cut,     ///< by the third face
+    cut,     ///< by the faces that end it
     mitre,   ///< by the third face, or with the wedge of the edge that goes on from here
 };
 struct EndPlan {
     Ending ending = Ending::flat;
     std::size_t face = 0;             ///< the third face, of cut and mitre
+    std::vector<std::size_t> also{};  ///< of a cut: further faces that end it
     std::optional<std::size_t> next;  ///< the job that it is mitred with
 };
-[[nodiscard]] EndPlan plan_of(const Body& body, const std::vector<Job>& jobs, std::size_t job,
-                              std::size_t end);
+/// Error: the edge ends in a corner of which the other faces do not cut it one after the other.
+[[nodiscard]] Result<EndPlan> plan_of(const Body& body, const std::vector<Job>& jobs,
+                                      std::size_t job, std::size_t end);
 
 /// A solid with a surface as its boundary near `at`: on its inner side, and as large as `reach` there.
 [[nodiscard]] Result<csg::Solid> inner_side(const Surface& s, Vec3 at, double reach,

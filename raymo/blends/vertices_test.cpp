@@ -1,6 +1,8 @@
 // Where blended edges end: corners of balls, mitres, chains of tangent edges, blends of blends.
+#include <random>
+
 #include "raymo/blends/section.hpp"
-#include "raymo/blends/test_blends.hpp"
+#include "raymo/blends/test_polyhedra.hpp"
 
 namespace raymo::blends {
 namespace {
@@ -308,6 +310,54 @@ csg::Solid meeting(const Affine& map, double scale, std::size_t& edges) {
     if (!notched) FAIL(notched.error().message << notched.error().hint);
     edges = bossed->edges + notched->edges;
     return notched->solid;
+}
+
+/// Whether a point lies in the fillet of radius r between two planes, however long.
+bool is_in_fillet(const Plane& a, const Plane& b, double r, Vec3 p) {
+    const double u = dot(a.normal, p) - a.offset;
+    const double v = dot(b.normal, p) - b.offset;
+    const double c = dot(a.normal, b.normal);
+    // From the centre, which is at u = v = r, by the dual basis of the two normals.
+    const double x = ((u - r) - c * (v - r)) / (1 - c * c);
+    const double y = ((v - r) - c * (u - r)) / (1 - c * c);
+    return u >= 0 && v >= 0 && x <= 0 && y <= 0 && x * x + y * y + 2 * x * y * c >= r * r;
+}
+
+TEST_CASE("vertices: a groove that ends at a tip is cut there by the walls next to it") {
+    const Vec3 tip{0, 0, 14};
+    const double r = 1.5;
+    for (const Vec2 notch : {Vec2{3, 3}, Vec2{2.5, 3.5}, Vec2{3.5, 3}}) {
+        const std::vector<Vec2> base{{10, 0}, notch, {0, 10}, {-10, 0}, {0, -10}};
+        std::vector<Plane> others = planes_of(base, tip.z, 0.0);
+        const Plane a = others[1];
+        const Plane b = others[2];
+        others.erase(others.begin() + 1, others.begin() + 3);
+        const csg::Solid sharp = test::pyramid(base, tip.z);
+        const csg::Solid around = cut(centred_block(60, 60, 60), sharp);
+        Traced pyramid(blended(sharp, Edges::concave, ball(r), 1));
+        Form only = ball(r);
+        only.near = Vec3{notch.x / 2, notch.y / 2, 7};
+        Traced mould(blended(around, Edges::convex, only, 1));
+        std::mt19937_64 random(4);
+        std::uniform_real_distribution<double> any(-1, 1);
+        std::size_t filled = 0;
+        std::size_t wrong = 0;
+        for (int i = 0; i < 40000; ++i) {
+            const double size = i % 2 == 0 ? 11 : 1.5;  // half of them about the tip
+            const Vec3 middle = i % 2 == 0 ? Vec3{0, 0, 6} : tip;
+            const Vec3 p = middle + Vec3{any(random), any(random), any(random)} * size;
+            bool is_in = true;
+            for (const Plane& wall : others) is_in = is_in && dot(wall.normal, p) < wall.offset;
+            const bool is_solid = dot(a.normal, p) < a.offset || dot(b.normal, p) < b.offset;
+            const bool is_filled = is_in_fillet(a, b, r, p);
+            filled += is_in && !is_solid && is_filled ? 1 : 0;
+            is_in = is_in && (is_solid || is_filled);
+            wrong += (pyramid.where(p) != solids::Where::out) != is_in ? 1 : 0;
+            wrong += (mould.where(p) != solids::Where::out) != !is_in ? 1 : 0;
+        }
+        CHECK(filled > 20);
+        CHECK(wrong == 0);
+    }
 }
 
 TEST_CASE("vertices: a filleted boss and a rounded notch meet; in every frame alike") {
