@@ -2,6 +2,7 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <random>
 #include <string>
 
 #include "raymo/solids/inventory.hpp"
@@ -80,6 +81,45 @@ TEST_CASE(
     CHECK(std::fabs(axis[0].exit.s - 1.0) <= axis[0].exit.error);
     // Above the tip the equation has a second nappe; the solid has not.
     CHECK(spans_of(k, {0, 0, 1.5}, {1, 0, 0}).size() == 0);
+}
+
+TEST_CASE("cone: crossings next to the tip are known as well as others") {
+    const Cone::Kernel k(0.0, false);
+    std::mt19937_64 random(1);
+    std::uniform_real_distribution<double> any(-1, 1);
+    for (int i = 0; i < 20000; ++i) {
+        // Level lines past the axis, at most 1e-9 to 1 from the tip, tilted a little.
+        const double off = std::pow(10.0, -4.5 + 4.5 * any(random));
+        const double turn = 4 * any(random);
+        const Vec3 d = unit({std::cos(turn), std::sin(turn), 0.3 * any(random)});
+        const Vec3 by{0.3 * off * any(random), 0.3 * off * any(random), 1 - off};
+        const Vec3 o = by - d * dot(d, by);
+        const auto spans = spans_of(k, o, d);
+        // The same equation in more digits, for the line that was asked for.
+        using Real = long double;
+        const Real q = (1 - Real{o.z}) / 2;
+        const Real dq = Real{d.z} / 2;
+        const Real a = Real{d.x} * d.x + Real{d.y} * d.y - dq * dq;
+        const Real b = Real{o.x} * d.x + Real{o.y} * d.y + dq * q;
+        const Real px = o.y * dq + q * d.y;
+        const Real py = o.x * dq + q * d.x;
+        const Real pz = Real{o.x} * d.y - Real{o.y} * d.x;
+        const Real root = px * px + py * py - pz * pz;
+        if (root < 0) {
+            CHECK(spans.size() == 0);
+            continue;
+        }
+        if (spans.size() == 0) {
+            CHECK(std::sqrt(root) / a < 1e-12L);
+            continue;
+        }
+        const Real enter = (-b - std::sqrt(root)) / a;
+        const Real exit = (-b + std::sqrt(root)) / a;
+        CHECK(std::fabs(spans[0].enter.s - enter) <= spans[0].enter.error);
+        if (spans[0].exit.face == 0)
+            CHECK(std::fabs(spans[0].exit.s - exit) <= spans[0].exit.error);
+        if (root > 0.01L * off * off) CHECK(spans[0].enter.error < 1e-11);
+    }
 }
 
 TEST_CASE("cone: wider at the top is the same cone turned over, with its faces' names") {

@@ -19,6 +19,16 @@
 //     8 u (d.d s^2 + 2 |B| s + |o|^2 + q0^2) <= 8 u (4 + 2 |o|^2 + 2 q0^2).
 // Together E; roots of f +- E differ from those of f by at most E / sqrt(max(D, |A| E)),
 // D = B^2 - A C. With A > 0 and D + A E < 0 there is no root.
+//
+// Near the apex, where D is small though B and C are not, that is far too much. There Lagrange's identity tells D without
+// cancellation: with p = g w x d for the line's place w from the apex and its direction d,
+//     D = px^2 + py^2 - (pz / g)^2,  px = oy dq + q0 dy,  py = -(ox dq + q0 dx),  pz / g = ox dy - oy dx,
+// where dq = g dz. In what follows e and |d| are the sums of their components' sizes. The line's error moves o by e and d by at most
+// 1.2 e |d|, and |o|, q0 < 1.5 wherever the solid is met, so with roundings each of px, py, pz / g and B is off by at most h |d|, A
+// by h |d|^2 and C by h, where h = 6 (e + e^2) + 8 u (2 + |o|^2). Then
+//     |sqrt(D)| by (2 (|px| + |py| + |pz / g|) h |d| + 3 h^2 |d|^2) / sqrt(D) = r,
+//     r1 by (h |d| + r + |r1| h |d|^2) / |A|,  r2 by (h + |r2| (h |d| + r)) / |Q|.
+// Of the two bounds the better one counts.
 template <class R, class M>
 RAYMO_INLINE void cone_spans(double k, const LocalRay<R>& ray, LaneSpans<R, M, 1>& out) {
     const R zero = R(0.0);
@@ -36,14 +46,36 @@ RAYMO_INLINE void cone_spans(double k, const LocalRay<R>& ray, LaneSpans<R, M, 1
     const R slack =
         e + e + e * e +
         R(8.0 * kUnitRoundoff) * (R(4.0) + R(2.0) * (oo + ray.oz * ray.oz) + R(2.0) * q0 * q0);
-    const R d = b * b - a * c;
+    const R px = ray.oy * dq + q0 * ray.dy;
+    const R py = ray.ox * dq + q0 * ray.dx;
+    const R pz = ray.ox * ray.dy - ray.oy * ray.dx;
+    const R d = px * px + py * py - pz * pz - (a - a0) * c;
     const R root = lane_sqrt(lane_max(d, zero));
     const R q = zero - (b + lane_copysign(root, b));
-    const R r1 = q / a;
-    const R r2 = lane_select(d > zero, c / q, r1);
-    const R error = slack / lane_sqrt(lane_max(d, lane_abs(a) * slack));
-    const R low = lane_min(r1, r2);
-    const R high = lane_max(r1, r2);
+    const R per_a = R(1.0) / a;
+    const R per_q = R(1.0) / q;
+    const M meets = d > zero;
+    const R r1 = q * per_a;
+    const R r2 = lane_select(meets, c * per_q, r1);
+    const R anywhere = slack / lane_sqrt(lane_max(d, lane_abs(a) * slack));
+
+    const R all = ray.ex + ray.ey + ray.ez;
+    const R along = lane_abs(ray.dx) + lane_abs(ray.dy) + lane_abs(ray.dz);
+    const R h =
+        R(6.0) * (all + all * all) + R(8.0 * kUnitRoundoff) * (R(2.0) + oo + ray.oz * ray.oz);
+    const R h_d = h * along;
+    const R p = lane_abs(px) + lane_abs(py) + lane_abs(pz);
+    const R off = h_d + h_d * (R(2.0) * p + R(3.0) * h_d) / root;
+    const R by_a = (off + lane_abs(r1) * h_d * along) * lane_abs(per_a);
+    const R by_q = (h + lane_abs(r2) * off) * lane_abs(per_q);
+    // Where D is 0 what is divided by its root is no number or infinite, and does not count.
+    const R e1 = lane_min(by_a, anywhere);
+    const R e2 = lane_select(meets, lane_min(by_q, anywhere), anywhere);
+    const M first = r1 < r2;
+    const R low = lane_select(first, r1, r2);
+    const R high = lane_select(first, r2, r1);
+    const R low_error = lane_select(first, e1, e2);
+    const R high_error = lane_select(first, e2, e1);
 
     const M flat = a > zero;
     const M rising = ray.dz > zero;
@@ -52,9 +84,9 @@ RAYMO_INLINE void cone_spans(double k, const LocalRay<R>& ray, LaneSpans<R, M, 1
     Window<R> w;
     open_window(w);
     clip_enter(w, lane_select(open_below, zero - inf, lane_select(flat, low, high)),
-               lane_select(open_below, zero, error), zero);
+               lane_select(open_below, zero, lane_select(flat, low_error, high_error)), zero);
     clip_exit(w, lane_select(open_above, inf, lane_select(flat, high, low)),
-              lane_select(open_above, zero, error), zero);
+              lane_select(open_above, zero, lane_select(flat, high_error, low_error)), zero);
     clip_slab(w, ray.oz, ray.dz, ray.ez, least_direction(ray), 1.0, 2.0);
     close_window(w, ray, lane_or(lane_not(flat), d + a * slack > zero), 0, out);
 }
