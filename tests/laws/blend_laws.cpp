@@ -221,9 +221,23 @@ private:
             judge(from + step * t, is_in, rounding, "ray at");
         });
         for (const trace::PartSpan& span : spans) {
-            end(line, span.enter.t, span.enter.normal);
-            end(line, span.exit.t, span.exit.normal);
+            for (const trace::Hit& hit : {span.enter, span.exit}) {
+                known(line, hit);
+                end(line, hit.t, hit.normal);
+            }
         }
+    }
+
+    /// An end is known to 1e-9 of the solids' size across its surface, unless the ray glances off it.
+    void known(const Ray& line, const trace::Hit& hit) {
+        const RealVec x = real(line.origin) + real(line.direction) * r(hit.t);
+        if (!is_near(x)) return;
+        const double climb = std::fabs(dot(hit.normal, line.direction));
+        if (climb < 1e-3 * norm(line.direction)) return;
+        ++tally_.samples;
+        const double across = hit.error * climb;
+        if (!(across <= 1e-9 * (static_cast<double>(norm(x)) + 10 * kFar * pair_.scale)))
+            fault("an end is known to " + number(across) + " only");
     }
 
     /// An end of a span on the tube is as far from the spine as the radius, and its normal points to it or away.

@@ -50,23 +50,23 @@ void judge_ray(Traced& traced, const Model& judge, const Ray& ray, double size, 
                Random& random, Tally& tally);
 
 /// ask(t, is_in) just behind the beginning, in the middle and just before the end of each stretch of a line, in a part or not, from
-/// t = -reach to reach. `inset`: how near to its ends, as part of the stretch.
+/// t = -reach to reach. `inset`: how near to its ends, as part of the stretch; but never nearer than the ends are known.
 template <class Ask>
 void ask_stretches(std::span<const trace::PartSpan> spans, Real reach, double inset, Ask&& ask) {
     Real last = -reach;
-    const auto stretch = [&](double to, bool is_in) {
-        const Real until = std::min(static_cast<Real>(to), reach);
+    const auto stretch = [&](double to, double error, bool is_in) {
+        const Real until = std::min(static_cast<Real>(to) - static_cast<Real>(error), reach);
         if (until > last) {
             for (const double f : {inset, 0.5, 1 - inset})
                 ask(last + (until - last) * static_cast<Real>(f), is_in);
         }
-        last = std::max(last, until);
+        last = std::max(last, static_cast<Real>(to) + static_cast<Real>(error));
     };
     for (const trace::PartSpan& span : spans) {
-        stretch(span.enter.t, false);
-        stretch(span.exit.t, true);
+        stretch(span.enter.t, span.enter.error, false);
+        stretch(span.exit.t, span.exit.error, true);
     }
-    stretch(static_cast<double>(reach), false);
+    stretch(static_cast<double>(reach), 0.0, false);
 }
 
 }  // namespace raymo::laws
