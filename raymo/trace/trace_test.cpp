@@ -100,6 +100,27 @@ TEST_CASE("trace: a ray in a shared face meets the union whole and the intersect
     CHECK(ends(join(turned(a, {0, 1, 0}, 0.0), b), skew).size() == 2);
 }
 
+TEST_CASE("trace: a ray that glances off where two cutters abut ends at them") {
+    // A shallow step cut by two blocks side by side; the rays rise nearly in the face that these share.
+    const double depth = 1e-6;
+    const auto step = [&](double x) { return moved(block({1, 2, 2}), {x, -1, -depth}); };
+    const auto base = moved(block({4, 4, 2}), {-2, -2, -2});
+    const Affine map = rotation(unit({1, 2, 3}), 40);
+    const auto place = [&](const Solid& s) { return csg::transform(s, map).value(); };
+    const Solid solid =
+        csg::boolean(Op::difference, {place(base), place(step(-1)), place(step(0))});
+    std::mt19937_64 random(6);
+    std::uniform_real_distribution<double> any(-1, 1);
+    for (int i = 0; i < 4000; ++i) {
+        const double slope = std::pow(10.0, -10.5 + 1.5 * any(random));
+        const Vec3 through{1e-15 * any(random), 0.9 * any(random), 1e-5 * any(random)};
+        const Vec3 d{any(random) < 0 ? slope : -slope, 0.5 * any(random), 1};
+        const auto found = ends(solid, {map(through - d), map.linear * d});
+        REQUIRE(found.size() == 2);
+        CHECK(std::fabs(through.z - d.z + found[1] * d.z + depth) < 1e-9);
+    }
+}
+
 TEST_CASE("trace: a distant eye costs no accuracy") {
     check_ends(ends(sphere(1.0), {{-1e12, 0.6, 0}, {1, 0, 0}}), {1e12 - 0.8, 1e12 + 0.8});
     const auto far = ends(cut(sphere(1.0), sphere(0.5)), {{-1e12, 0, 0}, {1, 0, 0}});

@@ -1,8 +1,47 @@
 #include "raymo/trace/walker.hpp"
 
 #include <algorithm>
+#include <cmath>
+
+#include "raymo/math/affine.hpp"
+#include "raymo/math/tolerance.hpp"
 
 namespace raymo::trace {
+namespace {
+
+using solids::LocalRay;
+#include "raymo/trace/localise.inl"
+
+/// Where crossings of one cluster are known to within less than this, in the unit of the base frame, their order does not
+/// matter.
+constexpr double kBlur = 0x1p-32;
+/// A crossing that is known so many times better than another does not coincide with it because of what the two surfaces are.
+constexpr double kSharper = 16.0;
+
+}  // namespace
+
+/// A ray may glance off a face so that where it crosses it is hardly known, and cross others there that are. What comes first
+/// may be told a little aside, where it crosses that face elsewhere. Returns how far aside; 0 where there is no such face.
+template <int L>
+double Walker<L>::blurred(int index, std::size_t end) const {
+    const Lane& lane = lanes[index];
+    const Event* worst = nullptr;
+    double least = kInfinity;
+    for (std::size_t i = lane.head; i < end; ++i) {
+        const Event& event = lane.events[i];
+        if (event.uncertain || event.idle || !(event.error < kInfinity)) continue;
+        least = std::min(least, event.error);
+        if (worst == nullptr || event.error > worst->error) worst = &event;
+    }
+    if (worst == nullptr || worst->error < kBlur || worst->error < kSharper * least) return 0.0;
+    const Context<L>& c = contexts[worst->context];
+    const Leaf& leaf = leaf_of(*worst);
+    const Frame& frame = data->frames[leaf.frame];
+    const auto local =
+        localise<double>(frame, leaf, c.o[0][index], c.o[1][index], c.o[2][index], c.d[0][index],
+                         c.d[1][index], c.d[2][index], c.error[index]);
+    return sidestep(frame, local.place_error) * c.size;
+}
 
 template <int L>
 void Walker<L>::flip(int lane, const Event& event) {
@@ -233,6 +272,12 @@ void Walker<L>::settle(int index, std::size_t end) {
         if (event.idle) continue;
         at_start = at_start || event.near <= lane.start;
         flip(index, event);
+    }
+    if (end - lane.head > 1 && !ignore_uncertain) {
+        if (const double step = blurred(index, end); step > 0.0) {
+            lane.step = std::max(lane.step, step);
+            lane.stepped_aside = true;
+        }
     }
     if (lane.stepped_aside) {
         lane.done = true;

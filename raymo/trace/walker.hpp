@@ -316,6 +316,7 @@ private:
     };
     void flip(int lane, const Event& event);
     void settle(int lane, std::size_t end);
+    [[nodiscard]] double blurred(int lane, std::size_t end) const;
     [[nodiscard]] const Event& shown_by(int lane, std::size_t end, const Change& change);
     [[nodiscard]] std::uint32_t part_of(const Event& event) const;
     [[nodiscard]] csg::MaterialId material_of(const Lane& lane, const Event& event,

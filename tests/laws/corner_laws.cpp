@@ -25,7 +25,7 @@ namespace {
 
 /// Roundings of points, of planes and of what they make; sharp corners have them magnified.
 constexpr Real kMargin = 4e-9L;
-/// The same for rays at a sine of 1e-6 and more to planes, which they meet with errors magnified by as much.
+/// The same for rays nearly in planes, which they meet with errors magnified, or aside of where they should.
 constexpr Real kGrazing = 1e-7L;
 constexpr double kSize = 4.0;  ///< of a cube about the origin that holds the polyhedra
 
@@ -324,7 +324,7 @@ private:
         const Ball& ball = any(balls_);
         const RealVec d = any(ball.normals) * r(random_.uniform(-1, 1)) +
                           any(ball.normals) * r(random_.uniform(-1, 1));
-        const double off = std::pow(10.0, random_.uniform(-6, -1));
+        const double off = std::pow(10.0, random_.uniform(-16, -1));
         return rounded(d) + random_.direction() * off;
     }
 
