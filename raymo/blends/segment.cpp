@@ -105,16 +105,45 @@ private:
         }
         return out;
     }
-    [[nodiscard]] Sectors sectors(const EdgeCurve& edge, double t, std::size_t operand = kBody,
-                                  double most = Aabb::kInf) const {
+    /// How far from an edge it is looked at.
+    [[nodiscard]] double step_beside(const EdgeCurve& edge, double most) const {
         double step = std::min(most, 0x1p-14 * reach_);
         for (const SectionCurve* c : {&edge.a, &edge.b}) {
             if (!c->is_line)
                 step = std::min(step, 0x1p-14 * (c->run ? c->run->grain() : c->radius));
         }
-        if (edge.is_circle) step = std::min(step, 0x1p-14 * edge.at.x);
+        return edge.is_circle ? std::min(step, 0x1p-14 * edge.at.x) : step;
+    }
+    [[nodiscard]] Sectors sectors(const EdgeCurve& edge, double t, std::size_t operand = kBody,
+                                  double most = Aabb::kInf) const {
         return sectors(edge.point(t), edge.turn(edge.a.outward(edge.at), t),
-                       edge.turn(edge.b.outward(edge.at), t), step, operand);
+                       edge.turn(edge.b.outward(edge.at), t), step_beside(edge, most), operand);
+    }
+
+    /// Whether the sector that is unlike the others ends at both faces. It may end before one of them, or go on behind it, at
+    /// a third face through the same edge.
+    [[nodiscard]] bool is_bounded(const Segment& segment, unsigned sector, bool is_solid) const {
+        const EdgeCurve& edge = segment.edge;
+        const double t = segment.middle();
+        const Vec3 at = edge.point(t);
+        const double sa = (sector & 2U) != 0 ? -1.0 : 1.0;
+        const double sb = (sector & 1U) != 0 ? -1.0 : 1.0;
+        const Vec3 a = edge.turn(edge.a.outward(edge.at), t) * sa;
+        const Vec3 b = edge.turn(edge.b.outward(edge.at), t) * sb;
+        const double sine = norm(cross(a, b));
+        if (sine < 0x1p-8) return true;
+        const double turn = 0x1p-4 * sine;
+        const double far = step_beside(edge, 0x1p-14 * (segment.hi - segment.lo) * edge.speed());
+        for (const auto& [face, other] : {std::pair(a, b), std::pair(b, a)}) {
+            const Vec3 within = unit(other - face * dot(other, face)) * std::cos(turn);
+            for (const double side : {1.0, -1.0}) {
+                const Where where =
+                    body_.where(at + (within + face * (side * std::sin(turn))) * far);
+                if (where == Where::on) continue;
+                if ((where == Where::in) != (is_solid == (side > 0.0))) return false;
+            }
+        }
+        return true;
     }
     [[nodiscard]] Sectors sectors(const SpaceEdge& edge, std::size_t i, std::size_t k, double t,
                                   std::size_t operand = kBody) const {
@@ -282,6 +311,7 @@ private:
         segment.is_convex = solid == 1;
         const unsigned odd = segment.is_convex ? sectors : (~sectors & 0xfU);
         const auto sector = static_cast<unsigned>(std::countr_zero(odd));
+        if (!segment.space && !is_bounded(segment, sector, segment.is_convex)) return false;
         segment.face_a = i;
         segment.face_b = k;
         // The odd sector is the inner one of a convex edge, the outer one of a concave edge.
