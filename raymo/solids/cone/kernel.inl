@@ -27,8 +27,8 @@
 // 1.2 e |d|, and |o|, q0 < 1.5 wherever the solid is met, so with roundings each of px, py, pz / g and B is off by at most h |d|, A
 // by h |d|^2 and C by h, where h = 6 (e + e^2) + 8 u (2 + |o|^2). Then
 //     |sqrt(D)| by (2 (|px| + |py| + |pz / g|) h |d| + 3 h^2 |d|^2) / sqrt(D) = r,
-//     r1 by (h |d| + r + |r1| h |d|^2) / |A|,  r2 by (h + |r2| (h |d| + r)) / |Q|.
-// Of the two bounds the better one counts.
+//     r1 by (h |d| + r + |r1| h |d|^2) / |A|,  r2 by (h + |r2| (h |d| + r)) / |Q|,
+// and r2 = (sign(B) sqrt(D) - B) / A by as much as r1 is. Of these bounds the best one counts.
 template <class R, class M>
 RAYMO_INLINE void cone_spans(double k, const LocalRay<R>& ray, LaneSpans<R, M, 1>& out) {
     const R zero = R(0.0);
@@ -56,7 +56,6 @@ RAYMO_INLINE void cone_spans(double k, const LocalRay<R>& ray, LaneSpans<R, M, 1
     const R per_q = R(1.0) / q;
     const M meets = d > zero;
     const R r1 = q * per_a;
-    const R r2 = lane_select(meets, c * per_q, r1);
     const R anywhere = slack / lane_sqrt(lane_max(d, lane_abs(a) * slack));
 
     const R all = ray.ex + ray.ey + ray.ez;
@@ -67,10 +66,15 @@ RAYMO_INLINE void cone_spans(double k, const LocalRay<R>& ray, LaneSpans<R, M, 1
     const R p = lane_abs(px) + lane_abs(py) + lane_abs(pz);
     const R off = h_d + h_d * (R(2.0) * p + R(3.0) * h_d) / root;
     const R by_a = (off + lane_abs(r1) * h_d * along) * lane_abs(per_a);
-    const R by_q = (h + lane_abs(r2) * off) * lane_abs(per_q);
+    // r2 = C / Q, or by the formula of r1 where that loses less.
+    const R product = c * per_q;
+    const R by_q = lane_min((h + lane_abs(product) * off) * lane_abs(per_q), anywhere);
+    const R same = (lane_copysign(root, b) - b) * per_a;
+    const R by_same = (off + lane_abs(same) * h_d * along) * lane_abs(per_a);
+    const R r2 = lane_select(meets, lane_select(by_same < by_q, same, product), r1);
     // Where D is 0 what is divided by its root is no number or infinite, and does not count.
     const R e1 = lane_min(by_a, anywhere);
-    const R e2 = lane_select(meets, lane_min(by_q, anywhere), anywhere);
+    const R e2 = lane_select(meets, lane_min(by_same, by_q), anywhere);
     const M first = r1 < r2;
     const R low = lane_select(first, r1, r2);
     const R high = lane_select(first, r2, r1);
