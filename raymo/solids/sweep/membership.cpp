@@ -26,6 +26,9 @@ constexpr double kTiny = 64.0 * kUnitRoundoff;
 /// At the edge of a flat cap, a point that is nearer to a ball's surface than this is on it.
 constexpr double kCapEdge = 0x1p-40;
 
+/// A point that is no farther from a ball's surface than this is on it, as far as crossings are known to be on their surface.
+constexpr double kOnBall = 0x1p-42;
+
 Cubics seen_from(Vec3 p, const Cubics& q) {
     Cubics out = q;
     for (std::size_t i = 0; i < 4; ++i) {
@@ -145,6 +148,54 @@ void look_at_ends(const Cubics& q, Nearest& best) {
     }
 }
 
+/// Half of F's first derivative where a piece begins, over 3; and where it ends.
+std::array<double, 2> slopes_at_ends(const Cubics& q) {
+    std::array<double, 2> out{};
+    for (std::size_t k = 0; k < 4; ++k) {
+        const double sign = k < 3 ? 1.0 : -1.0;
+        out[0] += sign * q.c[0][k] * (q.c[1][k] - q.c[0][k]);
+        out[1] += sign * q.c[3][k] * (q.c[3][k] - q.c[2][k]);
+    }
+    return out;
+}
+
+/// Half of F's first and second derivatives.
+std::array<double, 2> slopes(const CubicsJet& j) {
+    std::array<double, 2> out{-j.value[3] * j.first[3],
+                              -j.first[3] * j.first[3] - j.value[3] * j.second[3]};
+    for (std::size_t k = 0; k < 3; ++k) {
+        out[0] += j.value[k] * j.first[k];
+        out[1] += j.first[k] * j.first[k] + j.value[k] * j.second[k];
+    }
+    return out;
+}
+
+/// The ball of a piece on whose surface the origin is, by Newton's method from where a line through the slopes at both ends is
+/// zero. Of a point on the boundary any such ball will do: none holds it deeper. False: there is none, or another search is wanted.
+bool look_quickly(const Cubics& q, Nearest& best) {
+    constexpr int kMostSteps = 6;
+    const auto [begin, end] = slopes_at_ends(q);
+    if (!(begin <= 0.0 && end >= 0.0 && end - begin > 0.0)) return false;
+    double u = begin / (begin - end);
+    for (int i = 0; i < kMostSteps; ++i) {
+        const CubicsJet j = jet_at(q, u);
+        const auto [first, second] = slopes(j);
+        if (!(second > 0.0)) return false;
+        const double step = -first / second;
+        u += step;
+        if (!(u >= 0.0 && u <= 1.0)) return false;
+        if (std::fabs(step) > 0x1p-30) continue;
+        // The rest of the way is a line.
+        const Vec3 outward = Vec3{j.value[0], j.value[1], j.value[2]} * -1.0 -
+                             Vec3{j.first[0], j.first[1], j.first[2]} * step;
+        const double distance = norm(outward) - std::fabs(j.value[3] + j.first[3] * step);
+        if (std::fabs(distance) > kOnBall) return false;
+        best = {best.least, distance, outward, {j.first[0], j.first[1], j.first[2]}};
+        return true;
+    }
+    return false;
+}
+
 /// The balls between.
 void look_between(const Cubics& q, Nearest& best) {
     const std::array<double, 7> field = field_of(q);
@@ -161,14 +212,8 @@ void look_between(const Cubics& q, Nearest& best) {
         double u = root.u;
         look_nearer(q, u, best);
         // Once more from the cubics themselves, which lose less than the products of their coefficients.
-        const CubicsJet j = jet_at(q, u);
-        double f1 = -j.value[3] * j.first[3];
-        double f2 = -j.first[3] * j.first[3] - j.value[3] * j.second[3];
-        for (std::size_t k = 0; k < 3; ++k) {
-            f1 += j.value[k] * j.first[k];
-            f2 += j.first[k] * j.first[k] + j.value[k] * j.second[k];
-        }
-        if (f2 > 0.0) look_nearer(q, std::clamp(u - f1 / f2, 0.0, 1.0), best);
+        const auto [first, second] = slopes(jet_at(q, u));
+        if (second > 0.0) look_nearer(q, std::clamp(u - first / second, 0.0, 1.0), best);
     }
 }
 
@@ -211,12 +256,16 @@ Vec3 Sweep::Kernel::normal(Vec3 p, std::uint16_t face) const {
             at(seen_from(p, piece.cubics), best);
         };
         SmallList<const SweptPiece*, 64> near;
+        bool is_found = false;
         pieces_at(spheres, p, kBoxMargin, [&](const SweptPiece& piece) {
             near.push_back(&piece);
-            look(piece, look_at_ends);
-            return true;
+            is_found = piece.cut == 0 && look_quickly(seen_from(p, piece.cubics), best);
+            return !is_found;
         });
-        for (const SweptPiece* piece : near) look(*piece, look_between);
+        if (!is_found) {
+            for (const SweptPiece* piece : near) look(*piece, look_at_ends);
+            for (const SweptPiece* piece : near) look(*piece, look_between);
+        }
         if (std::isinf(best.distance)) {
             best.least = -std::numeric_limits<double>::infinity();
             for (const SweptPiece& piece : spheres.pieces) {
