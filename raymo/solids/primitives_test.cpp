@@ -122,6 +122,49 @@ TEST_CASE("cone: crossings next to the tip are known as well as others") {
     }
 }
 
+TEST_CASE("cone: next to generators and their tangent planes crossings are where they should be") {
+    std::mt19937_64 random(2);
+    std::uniform_real_distribution<double> any(-1, 1);
+    const auto tiny = [&] { return any(random) * std::pow(10.0, -9 + 7 * any(random)); };
+    for (const double ratio : {0.0, 1e-9, 0.3, 0.9, 1 - 1e-12, 1.0}) {
+        const Cone::Kernel k(ratio, false);
+        const double g = (1 - ratio) / 2;
+        for (int i = 0; i < 20000; ++i) {
+            // Along a generator, shifted in its tangent plane and, by less, out of it.
+            const double turn = 4 * any(random);
+            const Vec3 out{std::cos(turn), std::sin(turn), 0};
+            const Vec3 across{-std::sin(turn), std::cos(turn), 0};
+            const Vec3 along = Vec3{0, 0, 1} - out * g;
+            const Vec3 d = along + across * tiny() + out * tiny();
+            const Vec3 through =
+                out * ((1 + ratio) / 2) + along * any(random) + across * any(random) + out * tiny();
+            const Vec3 o = through - d * (dot(d, through) / dot(d, d));
+            const auto spans = spans_of(k, o, d);
+            if (spans.degenerate()) continue;
+            for (int m = 0; m <= 20; ++m) {
+                const double s = 0.95 * (m / 10.0 - 1);
+                using Real = long double;
+                const Real z = o.z + Real{s} * d.z;
+                if (std::fabs(z) > 0.999L) continue;
+                const Real x = o.x + Real{s} * d.x;
+                const Real y = o.y + Real{s} * d.y;
+                const Real off = std::sqrt(x * x + y * y) - (Real{1} + ratio) / 2 + Real{g} * z;
+                // By more than the line's own error, and not where an end is near.
+                if (std::fabs(off) < 1e-14L) continue;
+                bool is_in = false;
+                bool is_unclear = spans.touched();
+                for (std::size_t n = 0; n < spans.size(); ++n) {
+                    is_in = is_in || (s > spans[n].enter.s && s < spans[n].exit.s);
+                    is_unclear = is_unclear ||
+                                 std::fabs(s - spans[n].enter.s) <= spans[n].enter.error ||
+                                 std::fabs(s - spans[n].exit.s) <= spans[n].exit.error;
+                }
+                if (!is_unclear) CHECK(is_in == (off < 0));
+            }
+        }
+    }
+}
+
 TEST_CASE("cone: wider at the top is the same cone turned over, with its faces' names") {
     const auto up = Cone::prepare(std::vector<Argument>{2.0, 4.0, 6.0, false});
     REQUIRE(up.has_value());

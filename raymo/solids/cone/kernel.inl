@@ -26,9 +26,11 @@
 // where dq = g dz. In what follows e and |d| are the sums of their components' sizes. The line's error moves o by e and d by at most
 // 1.2 e |d|, and |o|, q0 < 1.5 wherever the solid is met, so with roundings each of px, py, pz / g and B is off by at most h |d|, A
 // by h |d|^2 and C by h, where h = 6 (e + e^2) + 8 u (2 + |o|^2). Then
-//     |sqrt(D)| by (2 (|px| + |py| + |pz / g|) h |d| + 3 h^2 |d|^2) / sqrt(D) = r,
-//     r1 by (h |d| + r + |r1| h |d|^2) / |A|,  r2 by (h + |r2| (h |d| + r)) / |Q|,
-// and r2 = (sign(B) sqrt(D) - B) / A by as much as r1 is. Of these bounds the best one counts.
+//     D by G = 2 (|px| + |py| + |pz / g|) h |d| + 3 h^2 |d|^2,  sqrt(D) by G / sqrt(D),
+//     r1 by (h |d| + G / sqrt(D) + |r1| h |d|^2) / |A|,  r2 by (h + |r2| (h |d| + G / sqrt(D))) / |Q|,
+// and r2 = (sign(B) sqrt(D) - B) / A by as much as r1 is.
+// Next to a generator it is the other way about: A and B vanish there, but p does not. So D is told by p only where G < |A| E,
+// less than what an error of E in f makes of it: then E and its bound hold as well, and of the bounds the best one counts.
 template <class R, class M>
 RAYMO_INLINE void cone_spans(double k, const LocalRay<R>& ray, LaneSpans<R, M, 1>& out) {
     const R zero = R(0.0);
@@ -49,7 +51,15 @@ RAYMO_INLINE void cone_spans(double k, const LocalRay<R>& ray, LaneSpans<R, M, 1
     const R px = ray.oy * dq + q0 * ray.dy;
     const R py = ray.ox * dq + q0 * ray.dx;
     const R pz = ray.ox * ray.dy - ray.oy * ray.dx;
-    const R d = px * px + py * py - pz * pz - (a - a0) * c;
+    const R p = lane_abs(px) + lane_abs(py) + lane_abs(pz);
+    const R all = ray.ex + ray.ey + ray.ez;
+    const R along = lane_abs(ray.dx) + lane_abs(ray.dy) + lane_abs(ray.dz);
+    const R h =
+        R(6.0) * (all + all * all) + R(8.0 * kUnitRoundoff) * (R(2.0) + oo + ray.oz * ray.oz);
+    const R h_d = h * along;
+    const R d_error = h_d * (R(2.0) * p + R(3.0) * h_d);
+    const M by_p = d_error < lane_abs(a) * slack;
+    const R d = lane_select(by_p, px * px + py * py - pz * pz - (a - a0) * c, b * b - a * c);
     const R root = lane_sqrt(lane_max(d, zero));
     const R q = zero - (b + lane_copysign(root, b));
     const R per_a = R(1.0) / a;
@@ -57,24 +67,18 @@ RAYMO_INLINE void cone_spans(double k, const LocalRay<R>& ray, LaneSpans<R, M, 1
     const M meets = d > zero;
     const R r1 = q * per_a;
     const R anywhere = slack / lane_sqrt(lane_max(d, lane_abs(a) * slack));
-
-    const R all = ray.ex + ray.ey + ray.ez;
-    const R along = lane_abs(ray.dx) + lane_abs(ray.dy) + lane_abs(ray.dz);
-    const R h =
-        R(6.0) * (all + all * all) + R(8.0 * kUnitRoundoff) * (R(2.0) + oo + ray.oz * ray.oz);
-    const R h_d = h * along;
-    const R p = lane_abs(px) + lane_abs(py) + lane_abs(pz);
-    const R off = h_d + h_d * (R(2.0) * p + R(3.0) * h_d) / root;
+    // Where D is 0 what is divided by its root is no number or infinite, and does not count.
+    const R off = h_d + d_error / root;
     const R by_a = (off + lane_abs(r1) * h_d * along) * lane_abs(per_a);
-    // r2 = C / Q, or by the formula of r1 where that loses less.
+    const R e1 = lane_select(by_p, lane_min(by_a, anywhere), anywhere);
     const R product = c * per_q;
-    const R by_q = lane_min((h + lane_abs(product) * off) * lane_abs(per_q), anywhere);
+    const R by_q = (h + lane_abs(product) * off) * lane_abs(per_q);
+    const R known = lane_select(by_p, lane_min(by_q, anywhere), anywhere);
     const R same = (lane_copysign(root, b) - b) * per_a;
     const R by_same = (off + lane_abs(same) * h_d * along) * lane_abs(per_a);
-    const R r2 = lane_select(meets, lane_select(by_same < by_q, same, product), r1);
-    // Where D is 0 what is divided by its root is no number or infinite, and does not count.
-    const R e1 = lane_min(by_a, anywhere);
-    const R e2 = lane_select(meets, lane_min(by_same, by_q), anywhere);
+    const M is_same = lane_and(by_p, by_same < known);
+    const R r2 = lane_select(meets, lane_select(is_same, same, product), r1);
+    const R e2 = lane_select(meets, lane_select(is_same, by_same, known), anywhere);
     const M first = r1 < r2;
     const R low = lane_select(first, r1, r2);
     const R high = lane_select(first, r2, r1);
