@@ -23,6 +23,8 @@ using solids::LocalRay;
 
 /// After so many steps aside crossings are taken as they are.
 constexpr int kAttempts = 6;
+/// The same of steps out of what a glance blurs: then the straight ray is asked after all.
+constexpr int kBlurredAttempts = 3;
 
 }  // namespace
 
@@ -52,7 +54,7 @@ struct Tracer::State {
     void start(Walker<L>& w, Mode mode) {
         w.data = data;
         w.mode = mode;
-        w.ignore_uncertain = false;
+        w.ignore_uncertain = w.ignore_blur = false;
         w.contexts.resize(1);
         Context<L>& c = w.contexts[0];
         c.solid = &data->solids.front();
@@ -98,18 +100,27 @@ struct Tracer::State {
     BaseRay trace_one(const RayQuery& query, Mode mode) {
         const BaseRay straight = base_ray(data->solids.front(), query);
         BaseRay ray = straight;
+        BaseRay last = straight;  // that has not been moved out of a blur
         double step = 0.0;
+        int blurs = 0;
         for (int attempt = 0;; ++attempt) {
             start(one, mode);
-            one.ignore_uncertain = attempt == kAttempts;
+            one.ignore_uncertain = attempt >= kAttempts;
+            one.ignore_blur = blurs > kBlurredAttempts;
             one.active = 1;
             place(one, 0, ray, query);
             walk(one);
             counts.boxes += one.boxes;
             counts.leaves += one.leaves;
-            if (!one.lanes[0].stepped_aside) return ray;
-            step = std::max(step, one.lanes[0].step);
+            const Lane& lane = one.lanes[0];
+            if (!lane.stepped_aside) return ray;
+            if (lane.is_blurred && ++blurs > kBlurredAttempts) {
+                ray = last;
+                continue;
+            }
+            step = std::max(step, lane.step);
             ray = moved_aside(straight, step, attempt, query.on_surface);
+            if (blurs == 0) last = ray;
         }
     }
     template <int L>

@@ -15,32 +15,49 @@ using solids::LocalRay;
 /// Where crossings of one cluster are known to within less than this, in the unit of the base frame, their order does not
 /// matter.
 constexpr double kBlur = 0x1p-32;
-/// A crossing that is known so many times better than another does not coincide with it because of what the two surfaces are.
-constexpr double kSharper = 16.0;
+/// Faces that a ray climbs so many times more steeply than another are not the same face.
+constexpr double kSteeper = 256.0;
+/// How far to step aside, in the place errors of a blurred face: the ray crosses it as many blurs away then.
+constexpr double kAside = 64.0;
 
 }  // namespace
 
 /// A ray may glance off a face so that where it crosses it is hardly known, and cross others there that are. What comes first
-/// may be told a little aside, where it crosses that face elsewhere. Returns how far aside; 0 where there is no such face.
+/// may be told a little aside, where it crosses that face elsewhere. Faces that coincide glance alike, and are left to cancel.
+/// Returns how far aside; 0 where there is no such face.
 template <int L>
 double Walker<L>::blurred(int index, std::size_t end) const {
     const Lane& lane = lanes[index];
-    const Event* worst = nullptr;
+    const auto place_error = [&](const Event& event) {
+        const Context<L>& c = contexts[event.context];
+        const Leaf& leaf = leaf_of(event);
+        const auto local = localise<double>(data->frames[leaf.frame], leaf, c.o[0][index],
+                                            c.o[1][index], c.o[2][index], c.d[0][index],
+                                            c.d[1][index], c.d[2][index], c.error[index]);
+        return local.place_error * c.size;
+    };
+    const auto counts = [](const Event& event) {
+        return !event.uncertain && !event.idle && event.error > 0.0 && event.error < kInfinity;
+    };
+    double worst = 0.0;
+    for (std::size_t i = lane.head; i < end; ++i) {
+        if (counts(lane.events[i])) worst = std::max(worst, lane.events[i].error);
+    }
+    if (worst < kBlur) return 0.0;
+    double steepest = 0.0;
     double least = kInfinity;
+    double step = 0.0;
     for (std::size_t i = lane.head; i < end; ++i) {
         const Event& event = lane.events[i];
-        if (event.uncertain || event.idle || !(event.error < kInfinity)) continue;
-        least = std::min(least, event.error);
-        if (worst == nullptr || event.error > worst->error) worst = &event;
+        if (!counts(event)) continue;
+        const double place = place_error(event);
+        const double climb = place / event.error;
+        steepest = std::max(steepest, climb);
+        if (event.error < kBlur || climb >= least) continue;
+        least = climb;
+        step = kAside * place;
     }
-    if (worst == nullptr || worst->error < kBlur || worst->error < kSharper * least) return 0.0;
-    const Context<L>& c = contexts[worst->context];
-    const Leaf& leaf = leaf_of(*worst);
-    const Frame& frame = data->frames[leaf.frame];
-    const auto local =
-        localise<double>(frame, leaf, c.o[0][index], c.o[1][index], c.o[2][index], c.d[0][index],
-                         c.d[1][index], c.d[2][index], c.error[index]);
-    return sidestep(frame, local.place_error) * c.size;
+    return steepest > kSteeper * least ? step : 0.0;
 }
 
 template <int L>
@@ -273,11 +290,9 @@ void Walker<L>::settle(int index, std::size_t end) {
         at_start = at_start || event.near <= lane.start;
         flip(index, event);
     }
-    if (end - lane.head > 1 && !ignore_uncertain) {
-        if (const double step = blurred(index, end); step > 0.0) {
-            lane.step = std::max(lane.step, step);
-            lane.stepped_aside = true;
-        }
+    if (end - lane.head > 1 && !lane.stepped_aside && !ignore_blur) {
+        lane.step = blurred(index, end);
+        lane.stepped_aside = lane.is_blurred = lane.step > 0.0;
     }
     if (lane.stepped_aside) {
         lane.done = true;

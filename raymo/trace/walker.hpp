@@ -70,6 +70,7 @@ struct Lane {
     bool done = false;
     bool blocked = false;        ///< mode any: the answer
     bool stepped_aside = false;  ///< the answer is void: the ray ran in a boundary
+    bool is_blurred = false;     ///< or might have met things in another order than was told
     double step = 0.0;           ///< and should be moved sideways by this much (base frame)
 
     void reset(double from, double to) {
@@ -79,7 +80,7 @@ struct Lane {
         crossings.clear();
         start = from;
         limit = to;
-        done = blocked = stepped_aside = false;
+        done = blocked = stepped_aside = is_blurred = false;
         step = 0.0;
     }
     void insert(const Event& event) {
@@ -282,6 +283,7 @@ struct Walker {
     const CompiledScene::Data* data = nullptr;
     Mode mode = Mode::first;
     bool ignore_uncertain = false;  ///< after too many steps aside: take crossings as they are
+    bool ignore_blur = false;       ///< the same of those that are blurred
     std::uint32_t active = 0;       ///< bit i: ray i is in use and not done
     Lane lanes[L];
     std::vector<Context<L>> contexts;
