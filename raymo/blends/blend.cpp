@@ -305,11 +305,7 @@ Result<Blended> blend(const Body& body, csg::Solid sharp, bool within_operands,
     for (std::size_t i = 0; i < jobs.size(); ++i) {
         if (!go_on(static_cast<double>(jobs.size()) * 0.1)) return stopped;
         if (jobs[i].segment.is_closed) continue;
-        for (std::size_t end = 0; end < 2; ++end) {
-            auto plan = plan_of(body, jobs, i, end);
-            if (!plan) return Failure(std::move(plan).error());
-            plans[i][end] = *std::move(plan);
-        }
+        for (std::size_t end = 0; end < 2; ++end) plans[i][end] = plan_of(body, jobs, i, end);
     }
     std::vector<RoundedRing> rings;
     for (std::size_t i = 0; i < jobs.size(); ++i) {

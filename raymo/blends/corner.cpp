@@ -334,23 +334,21 @@ std::optional<InnerCorner> inner_of(const Body& body, const Corner& corner, doub
     return inner_corner(planes, corner.away, radius, slack_of(body, corner.point));
 }
 
-std::string told(const Body& body, Vec3 at) {
-    const double grain = slack_of(body, at);
-    const auto shown = [&](double x) { return std::fabs(x) <= grain ? 0.0 : x; };
-    return fmt::format("({:g}, {:g}, {:g})", shown(at.x), shown(at.y), shown(at.z));
-}
-
 std::string name_of(const Body& body, const Corner& corner) {
     constexpr std::size_t kMost = 4;
     std::string names;
     const std::size_t count = corner.sides.size();
-    const std::size_t listed = count > kMost ? kMost - 1 : count;
-    for (std::size_t i = 0; i < listed; ++i) {
+    const std::size_t told = count > kMost ? kMost - 1 : count;
+    for (std::size_t i = 0; i < told; ++i) {
         if (i > 0) names += i + 1 == count ? " and " : ", ";
         names += body.name_of(body.faces()[corner.sides[i].face]);
     }
-    if (listed < count) names += fmt::format(" and {} others", count - listed);
-    return fmt::format("the corner at {}, where {} meet", told(body, corner.point), names);
+    if (told < count) names += fmt::format(" and {} others", count - told);
+    // What rounding left of 0 is none.
+    const double grain = slack_of(body, corner.point);
+    const auto shown = [&](double x) { return std::fabs(x) <= grain ? 0.0 : x; };
+    return fmt::format("the corner at ({:g}, {:g}, {:g}), where {} meet", shown(corner.point.x),
+                       shown(corner.point.y), shown(corner.point.z), names);
 }
 
 Result<std::vector<Corner>> find_corners(const Body& body, std::vector<Segment>& segments,

@@ -1,13 +1,10 @@
 #include "raymo/blends/vertex.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
 
-#include "raymo/blends/corner.hpp"
 #include "raymo/blends/make.hpp"
 
 namespace raymo::blends {
@@ -94,55 +91,58 @@ bool is_among(const Body& body, const EndPlan& plan, std::size_t face, Vec3 at) 
                        [&](std::size_t k) { return is_same_surface(body, k, face, at); });
 }
 
-/// Whether about the end of an edge, with nothing beyond it, there is what its own two faces bound and the others cut, each of
-/// them by itself: looked at in directions all around.
-bool is_cut_by_all(const Body& body, const Segment& segment, std::size_t end, const EndPlan& plan) {
-    constexpr int kDirections = 512;
+/// In how many of some directions along both faces of an edge, next to the end, these faces end elsewhere than where the
+/// others cut them. Nothing is beyond the end.
+int count_misses(const Body& body, const Segment& segment, std::size_t end,
+                 const std::vector<std::size_t>& others) {
+    constexpr int kDirections = 48;
     constexpr double kClear = 0.02;  // directions this near to a face are not asked about
     const Vec3 at = segment.ends[end].point;
     const double step = 0x1p-14 * (segment.hi - segment.lo) * segment.speed();
     const Vec3 back = segment.tangent(segment.ends[end].at) * (end == 0 ? 1.0 : -1.0);
     const auto normal = [&](std::size_t face) { return body.faces()[face].surface.normal(at); };
-    const Vec3 a = normal(segment.face_a) * (segment.edge.a.side * segment.sign());
-    const Vec3 b = normal(segment.face_b) * (segment.edge.b.side * segment.sign());
-    std::vector<Vec3> others;
-    others.reserve(plan.also.size() + 1);
-    const auto add = [&](std::size_t face) {
-        const Vec3 n = normal(face);
-        others.push_back(dot(n, back) < 0.0 ? n : -n);
-    };
-    add(plan.face);
-    for (const std::size_t face : plan.also) add(face);
-    for (int i = 0; i < kDirections; ++i) {
-        // A spiral of equal steps in height and by the golden angle.
-        const double z = (2.0 * i + 1.0) / kDirections - 1.0;
-        const double turn = i * std::numbers::pi * (3.0 - std::sqrt(5.0));
-        const double r = std::sqrt(1.0 - z * z);
-        const Vec3 d{r * std::cos(turn), r * std::sin(turn), z};
-        double clear = std::min(std::fabs(dot(a, d)), std::fabs(dot(b, d)));
-        bool is_in = dot(a, d) < 0.0 || dot(b, d) < 0.0;
-        for (const Vec3& n : others) {
-            clear = std::min(clear, std::fabs(dot(n, d)));
-            is_in = is_in && dot(n, d) < 0.0;
+    const Vec3 a = normal(segment.face_a) * segment.edge.a.side;
+    const Vec3 b = normal(segment.face_b) * segment.edge.b.side;
+    int misses = 0;
+    for (const auto& [face, other] : {std::pair(a, b), std::pair(b, a)}) {
+        // On the face, from the edge to where the ball is.
+        const Vec3 out = unit(other - face * dot(other, face)) * segment.sign();
+        for (int i = 0; i < kDirections; ++i) {
+            const double turn = (i + 0.5) * std::numbers::pi / kDirections;
+            const Vec3 d = back * std::cos(turn) + out * std::sin(turn);
+            bool is_kept = true;
+            double clear = 1.0;
+            for (const std::size_t f : others) {
+                const Vec3 n = normal(f);
+                const double height = dot(n, d) * (dot(n, back) < 0.0 ? 1.0 : -1.0);
+                is_kept = is_kept && height < 0.0;
+                clear = std::min(clear, std::fabs(height));
+            }
+            if (clear < kClear) continue;
+            const auto where = [&](double side) {
+                return body.where(at + (d + face * (side * 0.25 * kClear)) * step);
+            };
+            const bool is_there =
+                where(-1.0) == solids::Where::in && where(1.0) == solids::Where::out;
+            misses += is_there != is_kept ? 1 : 0;
         }
-        if (clear < kClear) continue;
-        const solids::Where where = body.where(at + d * step);
-        if (where != solids::Where::on &&
-            (where == solids::Where::in) != (is_in != segment.is_convex))
-            return false;
     }
-    return true;
+    return misses;
 }
 
-Failure mixed_corner(const Body& body, const Segment& segment, std::size_t end) {
-    return fail(
-        ErrorCode::bad_argument,
-        fmt::format(
-            "the edge of {} and {} ends at {}, where convex and concave edges go on from it; "
-            "balls can not be rolled to there",
-            body.name_of(body.faces()[segment.face_a]), body.name_of(body.faces()[segment.face_b]),
-            told(body, segment.ends[end].point)),
-        "choose other edges with `near` or `where`");
+/// Which of several faces that meet at the end of an edge, with nothing beyond it, cut it: the one at which both of its faces end,
+/// if there is one, or all. A blend that were cut by one of two such faces alone would go on past the other as a horn.
+void choose_cut(const Body& body, const Segment& segment, std::size_t end, EndPlan& plan) {
+    std::vector<std::size_t> all{plan.face};
+    all.insert(all.end(), plan.also.begin(), plan.also.end());
+    int least = count_misses(body, segment, end, all);
+    for (const std::size_t face : all) {
+        const int misses = count_misses(body, segment, end, {face});
+        if (misses > least || (misses == least && plan.also.empty())) continue;
+        least = misses;
+        plan.face = face;
+        plan.also.clear();
+    }
 }
 
 }  // namespace
@@ -207,8 +207,7 @@ Result<csg::Solid> inner_side(const Surface& s, Vec3 at, double reach, SourceSpa
     return fail(ErrorCode::evaluation, "unknown surface");
 }
 
-Result<EndPlan> plan_of(const Body& body, const std::vector<Job>& jobs, std::size_t job,
-                        std::size_t end) {
+EndPlan plan_of(const Body& body, const std::vector<Job>& jobs, std::size_t job, std::size_t end) {
     const Segment& s = jobs[job].segment;
     const End& at = s.ends[end];
     if (at.beyond == kAll) {
@@ -216,9 +215,9 @@ Result<EndPlan> plan_of(const Body& body, const std::vector<Job>& jobs, std::siz
         for (const std::size_t f : at.faces) {
             const Surface& surface = body.faces()[f].surface;
             if (std::fabs(dot(surface.normal(at.point), s.tangent(at.at))) > kSmooth)
-                return EndPlan{Ending::run_on, f, {}, std::nullopt};
+                return {Ending::run_on, f, {}, std::nullopt};
         }
-        return EndPlan{};
+        return {Ending::flat, 0, {}, std::nullopt};
     }
     EndPlan plan;
     for (const std::size_t f : at.faces) {
@@ -233,10 +232,10 @@ Result<EndPlan> plan_of(const Body& body, const std::vector<Job>& jobs, std::siz
         if (at.beyond != kOnlyA && at.beyond != kOnlyB) continue;
         const std::size_t stays = at.beyond == kOnlyA ? s.face_a : s.face_b;
         if (const auto next = job_of(body, jobs, job, at.point, stays, f)) {
-            return EndPlan{Ending::mitre, f, {}, next};
+            return {Ending::mitre, f, {}, next};
         }
     }
-    if (!plan.also.empty() && !is_cut_by_all(body, s, end, plan)) return mixed_corner(body, s, end);
+    if (!plan.also.empty()) choose_cut(body, s, end, plan);
     return plan;
 }
 

@@ -34,9 +34,8 @@ struct EndPlan {
     std::vector<std::size_t> also{};  ///< of a cut: further faces that end it
     std::optional<std::size_t> next;  ///< the job that it is mitred with
 };
-/// Error: the edge ends in a corner of which the other faces do not cut it one after the other.
-[[nodiscard]] Result<EndPlan> plan_of(const Body& body, const std::vector<Job>& jobs,
-                                      std::size_t job, std::size_t end);
+[[nodiscard]] EndPlan plan_of(const Body& body, const std::vector<Job>& jobs, std::size_t job,
+                              std::size_t end);
 
 /// A solid with a surface as its boundary near `at`: on its inner side, and as large as `reach` there.
 [[nodiscard]] Result<csg::Solid> inner_side(const Surface& s, Vec3 at, double reach,
