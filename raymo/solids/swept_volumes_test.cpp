@@ -301,6 +301,27 @@ TEST_CASE("volumes: straight and curved tubes, of one radius and of many") {
     CHECK(growing.measured() == near(growing.expected()));
 }
 
+TEST_CASE(
+    "areas: of tubes, by what a little more and a little less of radius makes of their volumes") {
+    // Steiner: by d more of radius the volume grows by A d + M d^2 + 4/3 pi d^3, so this is A.
+    const auto check = [](std::array<Ball, 4> powers, double area) {
+        const double d = 0.1 * powers[0].r;
+        const auto volume = [&](double more) {
+            std::array<Ball, 4> grown = powers;
+            grown[0].r += more;
+            return Tube({grown[0], grown[1], grown[2], grown[3]}).measured();
+        };
+        CHECK((volume(d) - volume(-d)) / (2.0 * d) - 4.0 / 3.0 * kPi * d * d == near(area));
+    };
+    check({{{{}, 1}, {{0, 0, 4}, 0}, {{}, 0}, {{}, 0}}}, 12.0 * kPi);
+    check({{{{}, 2}, {{0, 0, 3}, -1}, {{}, 0}, {{}, 0}}}, 20.0 * kPi);
+    const double length = std::sqrt(2.0) + std::asinh(1.0);
+    check({{{{-1, 0.5, 0}, 0.5}, {{2, -2, 0}, 0}, {{0, 2, 0}, 0}, {{}, 0}}}, kPi * length + kPi);
+    check({{{{}, 0.25}, {{1, 0, 0}, 0}, {{0, 1, 0}, 0}, {{-1.0 / 3.0, 0, 0}, 0}}},
+          11.0 * kPi / 12.0);
+    check({{{{}, 1}, {{6, 0, 0}, 0}, {{0, 6, 0}, 0}, {{0, 0, 4}, 0}}}, 24.0 * kPi);
+}
+
 TEST_CASE("volumes: a ball that holds all others, and a path that stands still at its ends") {
     const auto about_axis = [](const Asked& sweep, std::initializer_list<double> heights) {
         double sum = 0.0;
