@@ -24,4 +24,13 @@ inline constexpr double kPointError = 24.0 * kUnitRoundoff;
 inline constexpr double kDegenerate = 0x1p-12;
 inline constexpr double kSidestep = 0x1p14;
 
+/// A crossing is blurred when it is known to no better than this, in parts of the scene's size, because the ray glances off its
+/// surface: well above what it is known to at a sine of 2^-16, and below what anyone sees. Others within that are told apart a little
+/// aside: a step of kBlurredStep position errors e moves the blurred crossing by as many of its own errors, e over the sine, and
+/// those of surfaces that are climbed kBlurredClimb times as steeply by less than a quarter of one. The bounds of two kernels for
+/// one surface differ by less than kBlurredClimb, so surfaces that coincide are not told apart.
+inline constexpr double kBlurred = 0x1p-32;
+inline constexpr double kBlurredClimb = 256.0;
+inline constexpr double kBlurredStep = 64.0;
+
 }  // namespace raymo

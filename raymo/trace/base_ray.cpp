@@ -52,9 +52,10 @@ BaseRay moved_aside(BaseRay ray, double step, int attempt, bool on_surface) {
     make_frame(unit(ray.d), s, t);
     const double angle = 0.7390851332 + 2.39996322973 * attempt;
     const double length = step * static_cast<double>(1 << (2 * attempt));
-    ray.moved = s * (length * std::cos(angle)) + t * (length * std::sin(angle));
-    ray.o += ray.moved;
-    ray.step = length;
+    const Vec3 by = s * (length * std::cos(angle)) + t * (length * std::sin(angle));
+    ray.o += by;
+    ray.moved += by;
+    ray.step += length;
     if (on_surface) ray.start_error += length;
     return ray;
 }

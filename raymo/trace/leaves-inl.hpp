@@ -126,6 +126,14 @@ HWY_INLINE void add_touch(const Walker<L>& w, Lane& lane, const Placing& at, dou
     lane.insert(event);
 }
 
+/// How far to step aside: clear of the boundary over the whole leaf, but little compared to the leaf.
+HWY_INLINE double sidestep(const Frame& frame, double place_error) {
+    const double size = 1.0 / max_norm(frame.row_length);
+    const double clear = kSidestep * place_error;
+    const double most = 0x1p-8 * (size < 1.0 ? size : 1.0);
+    return clear < most ? clear : most;
+}
+
 /// Marks that the ray runs in the boundary of the leaf, from `enter` on; `step`: how far it should be moved aside.
 template <int L>
 HWY_INLINE void add_uncertain(const Walker<L>& w, Lane& lane, Event enter, double exit_hi,

@@ -49,11 +49,3 @@ RAYMO_INLINE Local<R> localise(const Frame& frame, const Leaf& leaf, R ox, R oy,
     ray.from = R(solids::kFromTheBeginning);
     return out;
 }
-
-/// How far to step aside: clear of the boundary over the whole leaf, but little compared to the leaf.
-RAYMO_INLINE double sidestep(const Frame& frame, double place_error) {
-    const double size = 1.0 / max_norm(frame.row_length);
-    const double clear = kSidestep * place_error;
-    const double most = 0x1p-8 * (size < 1.0 ? size : 1.0);
-    return clear < most ? clear : most;
-}

@@ -23,7 +23,7 @@ using solids::LocalRay;
 
 /// After so many steps aside crossings are taken as they are.
 constexpr int kAttempts = 6;
-/// The same of steps out of what a glance blurs: then the straight ray is asked after all.
+/// The same of steps out of what a glance blurs: then the ray is asked that was blurred first.
 constexpr int kBlurredAttempts = 3;
 
 }  // namespace
@@ -100,12 +100,13 @@ struct Tracer::State {
     BaseRay trace_one(const RayQuery& query, Mode mode) {
         const BaseRay straight = base_ray(data->solids.front(), query);
         BaseRay ray = straight;
-        BaseRay last = straight;  // that has not been moved out of a blur
+        BaseRay first = straight;  // that was found to be blurred
         double step = 0.0;
+        int attempts = 0;
         int blurs = 0;
-        for (int attempt = 0;; ++attempt) {
+        for (;;) {
             start(one, mode);
-            one.ignore_uncertain = attempt >= kAttempts;
+            one.ignore_uncertain = attempts == kAttempts;
             one.ignore_blur = blurs > kBlurredAttempts;
             one.active = 1;
             place(one, 0, ray, query);
@@ -114,13 +115,17 @@ struct Tracer::State {
             counts.leaves += one.leaves;
             const Lane& lane = one.lanes[0];
             if (!lane.stepped_aside) return ray;
-            if (lane.is_blurred && ++blurs > kBlurredAttempts) {
-                ray = last;
-                continue;
+            if (lane.is_blurred) {
+                if (blurs == 0) first = ray;
+                ray = blurs == kBlurredAttempts
+                          ? first
+                          : moved_aside(first, lane.step, blurs, query.on_surface);
+                ++blurs;
+            } else {
+                step = std::max(step, lane.step);
+                ray = moved_aside(straight, step, attempts, query.on_surface);
+                ++attempts;
             }
-            step = std::max(step, lane.step);
-            ray = moved_aside(straight, step, attempt, query.on_surface);
-            if (blurs == 0) last = ray;
         }
     }
     template <int L>

@@ -12,14 +12,6 @@ namespace {
 using solids::LocalRay;
 #include "raymo/trace/localise.inl"
 
-/// Where crossings of one cluster are known to within less than this, in the unit of the base frame, their order does not
-/// matter.
-constexpr double kBlur = 0x1p-32;
-/// Faces that a ray climbs so many times more steeply than another are not the same face.
-constexpr double kSteeper = 256.0;
-/// How far to step aside, in the place errors of a blurred face: the ray crosses it as many blurs away then.
-constexpr double kAside = 64.0;
-
 }  // namespace
 
 /// A ray may glance off a face so that where it crosses it is hardly known, and cross others there that are. What comes first
@@ -43,7 +35,7 @@ double Walker<L>::blurred(int index, std::size_t end) const {
     for (std::size_t i = lane.head; i < end; ++i) {
         if (counts(lane.events[i])) worst = std::max(worst, lane.events[i].error);
     }
-    if (worst < kBlur) return 0.0;
+    if (worst < kBlurred) return 0.0;
     double steepest = 0.0;
     double least = kInfinity;
     double step = 0.0;
@@ -53,11 +45,11 @@ double Walker<L>::blurred(int index, std::size_t end) const {
         const double place = place_error(event);
         const double climb = place / event.error;
         steepest = std::max(steepest, climb);
-        if (event.error < kBlur || climb >= least) continue;
+        if (event.error < kBlurred || climb >= least) continue;
         least = climb;
-        step = kAside * place;
+        step = kBlurredStep * place;
     }
-    return steepest > kSteeper * least ? step : 0.0;
+    return steepest > kBlurredClimb * least ? step : 0.0;
 }
 
 template <int L>
