@@ -245,23 +245,28 @@ Vec3 Sweep::Kernel::normal(Vec3 p, std::uint16_t face) const {
     } else if (face == 2) {
         look_nearer(seen_from(p, spheres.pieces.back().cubics), 1.0, best);
     } else {
-        // The balls at the ends of pieces are looked at first: what they tell spares looking between most of them.
-        const auto look = [&](const SweptPiece& piece, const auto& at) {
-            best.least = -std::numeric_limits<double>::infinity();
+        // Of a piece that flat caps cut only what lies on the solid's side of them counts.
+        const auto is_cut_away = [&](const SweptPiece& piece) {
             for (std::size_t k = 0; k < 2; ++k) {
-                if ((piece.cut >> k & 1U) == 0) continue;
-                const double height = dot(spheres.caps[k].n, p) - spheres.caps[k].c;
-                best.least = std::max(best.least, -std::fabs(height) - kCapEdge);
+                if ((piece.cut >> k & 1U) != 0 &&
+                    dot(spheres.caps[k].n, p) - spheres.caps[k].c < -kCapEdge)
+                    return true;
             }
-            at(seen_from(p, piece.cubics), best);
+            return false;
         };
         SmallList<const SweptPiece*, 64> near;
         bool is_found = false;
         pieces_at(spheres, p, kBoxMargin, [&](const SweptPiece& piece) {
+            if (is_cut_away(piece)) return true;
             near.push_back(&piece);
-            is_found = piece.cut == 0 && look_quickly(seen_from(p, piece.cubics), best);
+            is_found = look_quickly(seen_from(p, piece.cubics), best);
             return !is_found;
         });
+        // The balls at the ends of pieces are looked at first: what they tell spares looking between most of them.
+        const auto look = [&](const SweptPiece& piece, const auto& at) {
+            best.least = piece.cut != 0 ? -kCapEdge : -std::numeric_limits<double>::infinity();
+            at(seen_from(p, piece.cubics), best);
+        };
         if (!is_found) {
             for (const SweptPiece* piece : near) look(*piece, look_at_ends);
             for (const SweptPiece* piece : near) look(*piece, look_between);
