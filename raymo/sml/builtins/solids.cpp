@@ -288,8 +288,8 @@ bool for_each_outline(Call& call, const curves::Contour& contour, bool moves_alo
             operands.push_back(of_node[operand.get()]);
         Value made;
         // Without a place in the text, which its leaves have: only of blends all parts have that of the whole.
-        good = call.evaluator().combine(solid_op(node.op), std::move(operands), call.node(), {},
-                                        made);
+        good =
+            call.evaluator().combine(solid_op(node.op), std::move(operands), call.node(), {}, made);
         if (good) of_node[&node] = made.take_solid();
     });
     if (good) out = Value::solid(of_node[contour.get()]);
