@@ -25,6 +25,8 @@ constexpr double kTiny = 64.0 * kUnitRoundoff;
 
 /// At the edge of a flat cap, a point that is nearer to a ball's surface than this is on it.
 constexpr double kCapEdge = 0x1p-40;
+/// More than a crossing is off its surface by the ray's own error: nearer to a cap's plane it is not certain on which side a point is.
+constexpr double kCapSlack = 0x1p-22;
 
 /// A point that is no farther from a ball's surface than this is on it, as far as crossings are known to be on their surface.
 constexpr double kOnBall = 0x1p-42;
@@ -249,7 +251,7 @@ Vec3 Sweep::Kernel::normal(Vec3 p, std::uint16_t face) const {
         const auto is_cut_away = [&](const SweptPiece& piece) {
             for (std::size_t k = 0; k < 2; ++k) {
                 if ((piece.cut >> k & 1U) != 0 &&
-                    dot(spheres.caps[k].n, p) - spheres.caps[k].c < -kCapEdge)
+                    dot(spheres.caps[k].n, p) - spheres.caps[k].c < -kCapSlack)
                     return true;
             }
             return false;
@@ -264,7 +266,12 @@ Vec3 Sweep::Kernel::normal(Vec3 p, std::uint16_t face) const {
         });
         // The balls at the ends of pieces are looked at first: what they tell spares looking between most of them.
         const auto look = [&](const SweptPiece& piece, const auto& at) {
-            best.least = piece.cut != 0 ? -kCapEdge : -std::numeric_limits<double>::infinity();
+            best.least = -std::numeric_limits<double>::infinity();
+            for (std::size_t k = 0; k < 2; ++k) {
+                if ((piece.cut >> k & 1U) == 0) continue;
+                const double height = std::fabs(dot(spheres.caps[k].n, p) - spheres.caps[k].c);
+                best.least = std::max(best.least, -std::min(height, kCapSlack) - kCapEdge);
+            }
             at(seen_from(p, piece.cubics), best);
         };
         if (!is_found) {
