@@ -8,6 +8,21 @@ namespace {
 
 using namespace test;
 
+/// The half-spaces of the planes with all edges rounded are what balls of radius r in them reach: at `count` points.
+template <class Place>
+void check_rounded(const std::vector<Plane>& planes, double size, double r, int count,
+                   const Place& place) {
+    const auto made = blended_edges(within(planes, size), Edges::convex, ball(r));
+    if (!made) FAIL(made.error().message);
+    Traced solid(made->solid);
+    for (int i = 0; i < count; ++i) {
+        const Vec3 p = place();
+        const double d = from_centres(planes, r, p);
+        if (std::fabs(d - r) < 1e-8) continue;
+        CHECK((solid.where(p) == solids::Where::in) == (d < r));
+    }
+}
+
 TEST_CASE("corners: a hollow's bottom is what the rounded solid of its shape leaves") {
     const double r = 0.5;
     const std::vector<Vec2> skew{{-3, -2}, {4, -1}, {3, 3}, {0, 4}, {-2, 2}};
@@ -178,15 +193,9 @@ TEST_CASE("corners: planes that miss one point by little or more make one corner
             CAPTURE(sign);
             std::vector<Plane> planes = planes_of(skew, 5, 0.0);
             planes[1].offset += sign * std::pow(10.0, exponent);
-            const auto made = blended_edges(within(planes, 9), Edges::convex, ball(r));
-            if (!made) FAIL(made.error().message);
-            Traced solid(made->solid);
-            for (int i = 0; i < 2000; ++i) {
-                const Vec3 p{number(-0.7, 0.7), number(-0.7, 0.7), number(3.5, 5)};
-                const double d = from_centres(planes, r, p);
-                if (std::fabs(d - r) < 1e-8) continue;
-                CHECK((solid.where(p) == solids::Where::in) == (d < r));
-            }
+            check_rounded(planes, 9, r, 2000, [&] {
+                return Vec3{number(-0.7, 0.7), number(-0.7, 0.7), number(3.5, 5)};
+            });
         }
     }
 }
@@ -202,15 +211,9 @@ TEST_CASE("corners: short edges in the tip of a needle, where balls rest far bel
         const std::vector<Vec2> base = regular(10, wide);
         std::vector<Plane> planes = planes_of(base, high, 0.0);
         for (std::size_t i = 1; i < planes.size(); ++i) planes[i].offset += number(-0.002, 0.002);
-        const auto made = blended_edges(within(planes, 4), Edges::convex, ball(r));
-        if (!made) FAIL(made.error().message);
-        Traced solid(made->solid);
-        for (int i = 0; i < 1000; ++i) {
-            const Vec3 p{number(-0.1, 0.1), number(-0.1, 0.1), number(0.2, 0.6)};
-            const double d = from_centres(planes, r, p);
-            if (std::fabs(d - r) < 1e-8) continue;
-            CHECK((solid.where(p) == solids::Where::in) == (d < r));
-        }
+        check_rounded(planes, 4, r, 1000, [&] {
+            return Vec3{number(-0.1, 0.1), number(-0.1, 0.1), number(0.2, 0.6)};
+        });
     }
 }
 

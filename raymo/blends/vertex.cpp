@@ -86,8 +86,7 @@ Result<csg::Solid> on_own_side(const Body& body, csg::Solid wedge, const Segment
 
 /// Whether a face lies in the surface of one that the plan has.
 bool is_among(const Body& body, const EndPlan& plan, std::size_t face, Vec3 at) {
-    return is_same_surface(body, plan.face, face, at) ||
-           std::any_of(plan.also.begin(), plan.also.end(),
+    return std::any_of(plan.faces.begin(), plan.faces.end(),
                        [&](std::size_t k) { return is_same_surface(body, k, face, at); });
 }
 
@@ -133,15 +132,13 @@ int count_misses(const Body& body, const Segment& segment, std::size_t end,
 /// Which of several faces that meet at the end of an edge, with nothing beyond it, cut it: the one at which both of its faces end,
 /// if there is one, or all. A blend that were cut by one of two such faces alone would go on past the other as a horn.
 void choose_cut(const Body& body, const Segment& segment, std::size_t end, EndPlan& plan) {
-    std::vector<std::size_t> all{plan.face};
-    all.insert(all.end(), plan.also.begin(), plan.also.end());
+    const std::vector<std::size_t> all = plan.faces;
     int least = count_misses(body, segment, end, all);
     for (const std::size_t face : all) {
         const int misses = count_misses(body, segment, end, {face});
-        if (misses > least || (misses == least && plan.also.empty())) continue;
+        if (misses > least || (misses == least && plan.faces.size() == 1)) continue;
         least = misses;
-        plan.face = face;
-        plan.also.clear();
+        plan.faces = {face};
     }
 }
 
@@ -215,9 +212,9 @@ EndPlan plan_of(const Body& body, const std::vector<Job>& jobs, std::size_t job,
         for (const std::size_t f : at.faces) {
             const Surface& surface = body.faces()[f].surface;
             if (std::fabs(dot(surface.normal(at.point), s.tangent(at.at))) > kSmooth)
-                return {Ending::run_on, f, {}, std::nullopt};
+                return {Ending::run_on, {f}, std::nullopt};
         }
-        return {Ending::flat, 0, {}, std::nullopt};
+        return {};
     }
     EndPlan plan;
     for (const std::size_t f : at.faces) {
@@ -225,17 +222,17 @@ EndPlan plan_of(const Body& body, const std::vector<Job>& jobs, std::size_t job,
         const Vec3 n = surface.normal(at.point);
         if (std::fabs(dot(n, s.tangent(at.at))) <= kSmooth) continue;
         if (plan.ending == Ending::flat) {
-            plan = {Ending::cut, f, {}, std::nullopt};
+            plan = {Ending::cut, {f}, std::nullopt};
         } else if (at.beyond == kNothing && !is_among(body, plan, f, at.point)) {
-            plan.also.push_back(f);
+            plan.faces.push_back(f);
         }
         if (at.beyond != kOnlyA && at.beyond != kOnlyB) continue;
         const std::size_t stays = at.beyond == kOnlyA ? s.face_a : s.face_b;
         if (const auto next = job_of(body, jobs, job, at.point, stays, f)) {
-            return {Ending::mitre, f, {}, next};
+            return {Ending::mitre, {f}, next};
         }
     }
-    if (!plan.also.empty()) choose_cut(body, s, end, plan);
+    if (plan.faces.size() > 1) choose_cut(body, s, end, plan);
     return plan;
 }
 
@@ -256,8 +253,8 @@ void extend(const Body& body, std::vector<Job>& jobs, std::size_t job, double ra
             continue;
         }
         const double limit = kLongestRun * extent / s.speed();
-        double run = reach_past(body, s, radius, end, body.faces()[plan.face].surface, limit);
-        for (const std::size_t face : plan.also)
+        double run = 0.0;
+        for (const std::size_t face : plan.faces)
             run =
                 std::max(run, reach_past(body, s, radius, end, body.faces()[face].surface, limit));
         run += 0x1p-10 * extent / s.speed();
@@ -297,13 +294,12 @@ Result<csg::Solid> cut_at_ends(const Body& body, const std::vector<Job>& jobs, s
     for (std::size_t end = 0; end < 2; ++end) {
         const EndPlan& plan = plans[end];
         if (plan.ending != Ending::cut && plan.ending != Ending::mitre) continue;
-        solid = on_own_side(body, std::move(*solid), self.segment, end, plan.face, reach,
-                            plan.next ? jobs[*plan.next].solid : csg::Solid{}, span);
-        for (const std::size_t face : plan.also) {
+        const csg::Solid more = plan.next ? jobs[*plan.next].solid : csg::Solid{};
+        for (const std::size_t face : plan.faces) {
+            solid =
+                on_own_side(body, std::move(*solid), self.segment, end, face, reach, more, span);
             if (!solid) return solid;
-            solid = on_own_side(body, std::move(*solid), self.segment, end, face, reach, {}, span);
         }
-        if (!solid) return solid;
     }
     return solid;
 }

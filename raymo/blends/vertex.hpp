@@ -30,8 +30,8 @@ enum class Ending : std::uint8_t {
 };
 struct EndPlan {
     Ending ending = Ending::flat;
-    std::size_t face = 0;             ///< the third face, of cut and mitre
-    std::vector<std::size_t> also{};  ///< of a cut: further faces that end it
+    std::vector<std::size_t>
+        faces{};  ///< that end it; of a mitre and where it runs on the third one
     std::optional<std::size_t> next;  ///< the job that it is mitred with
 };
 [[nodiscard]] EndPlan plan_of(const Body& body, const std::vector<Job>& jobs, std::size_t job,

@@ -247,31 +247,29 @@ Vec3 Sweep::Kernel::normal(Vec3 p, std::uint16_t face) const {
     } else if (face == 2) {
         look_nearer(seen_from(p, spheres.pieces.back().cubics), 1.0, best);
     } else {
-        // Of a piece that flat caps cut only what lies on the solid's side of them counts.
-        const auto is_cut_away = [&](const SweptPiece& piece) {
+        // How deep a piece's balls may hold p where flat caps cut them; infinite where what is left of them does not reach.
+        const auto least_of = [&](const SweptPiece& piece) {
+            constexpr double kInfinity = std::numeric_limits<double>::infinity();
+            double least = -kInfinity;
             for (std::size_t k = 0; k < 2; ++k) {
-                if ((piece.cut >> k & 1U) != 0 &&
-                    dot(spheres.caps[k].n, p) - spheres.caps[k].c < -kCapSlack)
-                    return true;
+                if ((piece.cut >> k & 1U) == 0) continue;
+                const double height = dot(spheres.caps[k].n, p) - spheres.caps[k].c;
+                if (height < -kCapSlack) return kInfinity;
+                least = std::max(least, -std::min(std::fabs(height), kCapSlack) - kCapEdge);
             }
-            return false;
+            return least;
         };
         SmallList<const SweptPiece*, 64> near;
         bool is_found = false;
         pieces_at(spheres, p, kBoxMargin, [&](const SweptPiece& piece) {
-            if (is_cut_away(piece)) return true;
+            if (least_of(piece) > 0.0) return true;
             near.push_back(&piece);
             is_found = look_quickly(seen_from(p, piece.cubics), best);
             return !is_found;
         });
         // The balls at the ends of pieces are looked at first: what they tell spares looking between most of them.
         const auto look = [&](const SweptPiece& piece, const auto& at) {
-            best.least = -std::numeric_limits<double>::infinity();
-            for (std::size_t k = 0; k < 2; ++k) {
-                if ((piece.cut >> k & 1U) == 0) continue;
-                const double height = std::fabs(dot(spheres.caps[k].n, p) - spheres.caps[k].c);
-                best.least = std::max(best.least, -std::min(height, kCapSlack) - kCapEdge);
-            }
+            best.least = least_of(piece);
             at(seen_from(p, piece.cubics), best);
         };
         if (!is_found) {
