@@ -85,15 +85,15 @@ Rays::Rays(const scene::Camera& camera, int side) {
     for (int y = 0; y < side; y += 4) {
         for (int x = 0; x < side; x += 4) {
             Sixteen sixteen;
-            trace::RayPacket eight;
+            trace::RayPacket packet;
             for (int i = 0; i < 16; ++i) {
                 trace::RayQuery query;
                 query.ray = view.ray(x + i % 4 + 0.5, y + i / 4 + 0.5);
-                eight.set(i % 8, query);
+                packet.set(i, query);
                 for (int a = 0; a < 3; ++a)
                     sixteen.d[a][i] = static_cast<float>(query.ray.direction[a]);
-                if (i % 8 == 7) eights.push_back(eight);
             }
+            packets.push_back(packet);
             sixteens.push_back(sixteen);
         }
     }
@@ -116,7 +116,7 @@ std::size_t ExactScene::trace_packets(const Rays& rays) const {
     trace::Tracer tracer(scene_);
     trace::HitPacket hits;
     std::size_t count = 0;
-    for (const trace::RayPacket& packet : rays.eights)
+    for (const trace::RayPacket& packet : rays.packets)
         count += static_cast<std::size_t>(
             trace::lane_count(tracer.first_hits(packet, trace::kAllLanes, hits)));
     return count;
@@ -126,8 +126,8 @@ std::size_t ExactScene::trace_single(const Rays& rays) const {
     trace::Tracer tracer(scene_);
     trace::Hit hit;
     std::size_t count = 0;
-    for (const trace::RayPacket& packet : rays.eights) {
-        for (int i = 0; i < trace::RayPacket::kSize; ++i)
+    for (const trace::RayPacket& packet : rays.packets) {
+        for (int i = 0; i < trace::kRays; ++i)
             count += tracer.first_hit(packet.query(i), hit) ? 1 : 0;
     }
     return count;
@@ -137,10 +137,10 @@ Answers ExactScene::answers(const Rays& rays) const {
     trace::Tracer tracer(scene_);
     trace::HitPacket hits;
     Answers out;
-    for (const trace::RayPacket& packet : rays.eights) {
+    for (const trace::RayPacket& packet : rays.packets) {
         const trace::LaneBits met = tracer.first_hits(packet, trace::kAllLanes, hits);
         out.hits += static_cast<std::size_t>(trace::lane_count(met));
-        for (int i = 0; i < trace::RayPacket::kSize; ++i) {
+        for (int i = 0; i < trace::kRays; ++i) {
             const bool is_hit = (met >> i & 1U) != 0;
             out.is_hit.push_back(is_hit);
             out.normals.push_back(is_hit ? hits.hit(i).normal : Vec3{});

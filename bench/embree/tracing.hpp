@@ -15,8 +15,8 @@ namespace raymo::bench {
 /// CPU time of this process [s].
 [[nodiscard]] double cpu_seconds();
 
-/// The primary rays of a square picture, made once for both: in double precision in packets of eight, 4 x 2 pixels, and
-/// rounded to single precision in packets of sixteen, 4 x 4.
+/// The primary rays of a square picture, made once for both: in packets of sixteen, 4 x 4 pixels, in double precision
+/// and rounded to single.
 class Rays {
 public:
     struct alignas(64) Sixteen {
@@ -24,10 +24,10 @@ public:
     };
     /// `side`: pixels each way, a multiple of 4.
     Rays(const scene::Camera& camera, int side);
-    [[nodiscard]] std::size_t count() const { return eights.size() * 8; }
+    [[nodiscard]] std::size_t count() const { return packets.size() * trace::kRays; }
 
-    std::vector<trace::RayPacket> eights;
-    std::vector<Sixteen> sixteens;  ///< the rays of eights[2 i] and eights[2 i + 1]
+    std::vector<trace::RayPacket> packets;
+    std::vector<Sixteen> sixteens;  ///< the same rays
     float eye[3];                   ///< where all begin
 };
 

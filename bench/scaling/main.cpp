@@ -48,16 +48,16 @@ struct Measured {
     double seconds = 0.0;
 };
 
-/// One picture's primary rays, in blocks of 4 x 2.
+/// One picture's primary rays, in blocks of 4 x 4.
 Measured trace_picture(const CompiledScene& scene, const raymo::scene::View& view, int side) {
     Tracer tracer(scene);
     RayPacket rays;
     HitPacket hits;
     Measured result;
     const double start = cpu_seconds();
-    for (int y = 0; y < side; y += 2) {
+    for (int y = 0; y < side; y += raymo::trace::kRays / 4) {
         for (int x = 0; x < side; x += 4) {
-            for (int i = 0; i < RayPacket::kSize; ++i) {
+            for (int i = 0; i < raymo::trace::kRays; ++i) {
                 RayQuery query;
                 query.ray = view.ray(x + i % 4 + 0.5, y + i / 4 + 0.5);
                 rays.set(i, query);

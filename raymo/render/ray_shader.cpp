@@ -32,18 +32,18 @@ Signature signature_of(const HitPacket& hits, int i) {
             {scaled(hits.normal[0][i]), scaled(hits.normal[1][i]), scaled(hits.normal[2][i])}};
 }
 
-Colour lane_of(const double (&colours)[3][8], int lane) {
+Colour lane_of(const double (&colours)[3][kRays], int lane) {
     return {colours[0][lane], colours[1][lane], colours[2][lane]};
 }
-void set_lane(double (&colours)[3][8], int lane, Colour c) {
+void set_lane(double (&colours)[3][kRays], int lane, Colour c) {
     for (int a = 0; a < 3; ++a) colours[a][lane] = c[a];
 }
 
 /// Gives the lanes named one value.
 template <class T>
-void fill(T (&row)[8], LaneBits lanes, T value) {
+void fill(T (&row)[kRays], LaneBits lanes, T value) {
     if (lanes == trace::kAllLanes) {
-        std::fill_n(row, 8, value);
+        std::fill_n(row, kRays, value);
         return;
     }
     for (LaneBits rest = lanes; rest != 0; rest &= rest - 1) row[lowest_lane(rest)] = value;
@@ -76,12 +76,14 @@ void RayShader::answer(const EyeBatch& eyes, Answers& answers) {
     eyes_ = &eyes;
     answers_ = &answers;
     counts_.primary += eyes.count;
-    for (std::size_t first = 0; first < eyes.count; first += 8) {
-        const RayPacket& rays = eyes.rays[first / 8];
-        const LaneBits lanes = trace::first_lanes(std::min<std::size_t>(eyes.count - first, 8));
+    for (std::size_t first = 0; first < eyes.count; first += kRays) {
+        const RayPacket& rays = eyes.rays[first / kRays];
+        const LaneBits lanes = trace::first_lanes(std::min<std::size_t>(eyes.count - first, kRays));
         const LaneBits found = tracer_.first_hits(rays, lanes, hits_);
         if (found != lanes) shade_background(stage_->around, rays.d, spots_.light);
         Paths paths;
+        std::fill_n(paths.name, kRays, 1U);
+        std::fill_n(paths.depth, kRays, 0U);
         for (LaneBits rest = lanes; rest != 0; rest &= rest - 1) {
             const int i = lowest_lane(rest);
             const std::size_t owner = first + static_cast<std::size_t>(i);
@@ -89,15 +91,15 @@ void RayShader::answer(const EyeBatch& eyes, Answers& answers) {
             answers.light[owner] = met ? Colour{} : lane_of(spots_.light, i);
             if (eyes.signatures)
                 answers.signature[owner] = met ? signature_of(hits_, i) : Signature{};
-            paths[static_cast<std::size_t>(i)].owner = static_cast<std::uint32_t>(owner);
+            paths.owner[i] = static_cast<std::uint32_t>(owner);
         }
         if (found == 0) continue;
-        std::fill_n(&spots_.weight[0][0], 3 * 8, 1.0);
+        std::fill_n(&spots_.weight[0][0], 3 * kRays, 1.0);
         shade(rays, found, paths);
-        while (views_.size() >= 8) follow(views_);
-        while (images_.size() >= 8) {
+        while (views_.size() >= kRays) follow(views_);
+        while (images_.size() >= kRays) {
             follow(images_);
-            while (views_.size() >= 8) follow(views_);
+            while (views_.size() >= kRays) follow(views_);
         }
     }
     while (!views_.empty() || !images_.empty()) follow(views_.empty() ? images_ : views_);
@@ -113,8 +115,7 @@ void RayShader::follow(RayStack& stack) {
         shade_background(stage_->around, rays.d, spots_.light);
         for (LaneBits rest = lanes & ~found; rest != 0; rest &= rest - 1) {
             const int i = lowest_lane(rest);
-            answers_->light[paths[static_cast<std::size_t>(i)].owner] +=
-                lane_of(spots_.weight, i) * lane_of(spots_.light, i);
+            answers_->light[paths.owner[i]] += lane_of(spots_.weight, i) * lane_of(spots_.light, i);
         }
     }
     if (found != 0) shade(rays, found, paths);
@@ -126,12 +127,12 @@ void RayShader::look_up(LaneBits lanes) {
     spots_.same = true;
     spots_.tinted = spots_.transparent = spots_.mirrors = spots_.slow = spots_.dark = 0;
     LaneBits absorbed = 0;
-    std::fill_n(spots_.index, 8, 1.0);
+    std::fill_n(spots_.index, kRays, 1.0);
     for (LaneBits rest = lanes; rest != 0;) {
         // All that met one material between the same media.
         const int i = lowest_lane(rest);
         LaneBits alike = 0;
-        for (int k = 0; k < 8; ++k) {
+        for (int k = 0; k < kRays; ++k) {
             const std::uint32_t other = (hits_.material[k] ^ hits_.material[i]) |
                                         (hits_.medium_before[k] ^ hits_.medium_before[i]) |
                                         (hits_.medium_after[k] ^ hits_.medium_after[i]);
@@ -182,7 +183,7 @@ void RayShader::shade(const RayPacket& rays, LaneBits lanes, const Paths& paths)
         if (lamp.is_area()) {
             for (LaneBits rest = spots_.lit; rest != 0; rest &= rest - 1) {
                 const int i = lowest_lane(rest);
-                light_softly(lamp, rays, i, paths[static_cast<std::size_t>(i)]);
+                light_softly(lamp, rays, i, paths.owner[i], paths.name[i]);
             }
             continue;
         }
@@ -193,8 +194,7 @@ void RayShader::shade(const RayPacket& rays, LaneBits lanes, const Paths& paths)
     }
     for (LaneBits rest = lanes & ~spots_.dark; rest != 0; rest &= rest - 1) {
         const int i = lowest_lane(rest);
-        answers_->light[paths[static_cast<std::size_t>(i)].owner] +=
-            lane_of(spots_.weight, i) * lane_of(spots_.light, i);
+        answers_->light[paths.owner[i]] += lane_of(spots_.weight, i) * lane_of(spots_.light, i);
     }
 }
 
@@ -202,34 +202,38 @@ void RayShader::shade(const RayPacket& rays, LaneBits lanes, const Paths& paths)
 void RayShader::go_on(const Onward& onward, const Paths& paths, std::uint32_t turn) {
     if (onward.lanes == 0) return;
     LaneBits going = worth_tracing(onward, stage_->min_weight);
-    for (LaneBits rest = going; rest != 0; rest &= rest - 1) {
-        const int i = lowest_lane(rest);
-        if (paths[static_cast<std::size_t>(i)].depth >= stage_->max_depth) going &= ~(1U << i);
+    const auto most = static_cast<std::uint32_t>(stage_->max_depth);
+    bool deep = false;
+    for (const std::uint32_t depth : paths.depth) deep |= depth >= most;
+    if (deep) {
+        for (LaneBits rest = going; rest != 0; rest &= rest - 1) {
+            const int i = lowest_lane(rest);
+            if (paths.depth[i] >= most) going &= ~(1U << i);
+        }
     }
     for (LaneBits rest = onward.lanes & ~going; rest != 0; rest &= rest - 1) {
         const int i = lowest_lane(rest);
-        answers_->light[paths[static_cast<std::size_t>(i)].owner] +=
-            lane_of(onward.weight, i) * stage_->around.ambient;
+        answers_->light[paths.owner[i]] += lane_of(onward.weight, i) * stage_->around.ambient;
     }
     if (going != 0) (turn == 0 ? images_ : views_).push(hits_, onward, going, paths, turn);
 }
 
 /// The lamp's light by several samples of its area; the fewer, the less the hit counts in the picture.
-void RayShader::light_softly(const Lamp& lamp, const RayPacket& rays, int lane, const Path& path) {
+void RayShader::light_softly(const Lamp& lamp, const RayPacket& rays, int lane, std::uint32_t owner,
+                             std::uint32_t name) {
     const double share = std::min(max_norm(lane_of(spots_.weight, lane)), 1.0) / eyes_->samples;
     const auto samples = static_cast<std::uint32_t>(std::max(std::ceil(lamp.samples * share), 1.0));
     const double part = 1.0 / samples;
     // Every hit and lamp has its own set of points, of which the pixel's samples take their turns.
-    const std::uint64_t set =
-        mix(eyes_->seed[path.owner] + (static_cast<std::uint64_t>(path.name) << 32U) +
-            static_cast<std::uint64_t>(&lamp - stage_->lamps.data()) + 1);
-    alignas(64) double u[8] = {};
-    alignas(64) double v[8] = {};
+    const std::uint64_t set = mix(eyes_->seed[owner] + (static_cast<std::uint64_t>(name) << 32U) +
+                                  static_cast<std::uint64_t>(&lamp - stage_->lamps.data()) + 1);
+    alignas(64) double u[kRays] = {};
+    alignas(64) double v[kRays] = {};
     const double least = kUnseen * stage_->min_weight;
-    for (std::uint32_t first = 0; first < samples; first += 8) {
-        const std::uint32_t count = std::min(samples - first, 8U);
+    for (std::uint32_t first = 0; first < samples; first += kRays) {
+        const std::uint32_t count = std::min(samples - first, static_cast<std::uint32_t>(kRays));
         for (std::uint32_t k = 0; k < count; ++k) {
-            const Point2 place = sample_point(eyes_->sample[path.owner] * samples + first + k, set);
+            const Point2 place = sample_point(eyes_->sample[owner] * samples + first + k, set);
             u[k] = place.u;
             v[k] = place.v;
         }
@@ -257,7 +261,7 @@ void RayShader::dim(RayPacket& shadows, int hit) {
 /// The same with transparent parts on the way to a lamp. Light goes straight on through them, as bending would leave the
 /// lamp aside [Whitted80].
 void RayShader::filter(RayPacket& shadows, int hit) {
-    std::fill_n(left_, 8, 1.0);
+    std::fill_n(left_, kRays, 1.0);
     for (LaneBits rest = gains_.lanes; rest != 0; rest &= rest - 1) {
         const auto i = static_cast<std::size_t>(lowest_lane(rest));
         around_[i] = &surfaces_[hits_.medium_before[hit < 0 ? i : static_cast<std::size_t>(hit)]];
@@ -265,8 +269,8 @@ void RayShader::filter(RayPacket& shadows, int hit) {
     LaneBits blocked = 0;
     LaneBits by_steps = tracer_.passages(shadows, gains_.lanes, passages_, blocked);
     LaneBits arriving = gains_.lanes & ~(blocked | by_steps);
-    alignas(64) double reached[8] = {};
-    alignas(64) double length[8] = {};
+    alignas(64) double reached[kRays] = {};
+    alignas(64) double length[kRays] = {};
     for (int k = 0; k < passages_.count && arriving != 0; ++k) {
         const HitPacket& met = passages_.hits[k];
         const LaneBits crossing = arriving & passages_.lanes[k];
@@ -310,10 +314,11 @@ void RayShader::absorb_gain(int lane, const Surface& medium, double length) {
 
 /// Takes rays to a lamp along `view` across the surfaces that they meet, after `length` each. Returns those of `lanes` that
 /// still bring light.
-LaneBits RayShader::cross(const HitPacket& met, const double (&view)[3][8],
-                          const double (&length)[8], LaneBits lanes) {
-    alignas(64) double transmission[8] = {};
-    alignas(64) double ratio[8] = {1, 1, 1, 1, 1, 1, 1, 1};
+LaneBits RayShader::cross(const HitPacket& met, const double (&view)[3][kRays],
+                          const double (&length)[kRays], LaneBits lanes) {
+    alignas(64) double transmission[kRays] = {};
+    alignas(64) double ratio[kRays] = {};
+    std::fill_n(ratio, kRays, 1.0);
     LaneBits going = lanes;
     for (LaneBits rest = lanes; rest != 0; rest &= rest - 1) {
         const int i = lowest_lane(rest);

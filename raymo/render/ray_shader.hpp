@@ -48,7 +48,7 @@ struct Signature {
 struct EyeBatch {
     static constexpr std::size_t kMost = 256;
     std::size_t count = 0;
-    std::array<trace::RayPacket, kMost / 8> rays;
+    std::array<trace::RayPacket, kMost / kRays> rays;
     /// Samples of one pixel share its seed; together they use each area light's samples once. Not read unless Stage::soft.
     std::array<std::uint64_t, kMost> seed;
     std::array<std::uint32_t, kMost> sample;  ///< number of the ray among those of its pixel
@@ -76,19 +76,18 @@ public:
     [[nodiscard]] trace::RayCounts counts() const;
 
 private:
-    using Paths = std::array<Path, 8>;
-
     /// Adds the light of hits to the answers and puts the rays that go on from them on the stacks. spots_.weight is set.
     void shade(const trace::RayPacket& rays, LaneBits lanes, const Paths& paths);
     void follow(RayStack& stack);
     void look_up(LaneBits lanes);
     void go_on(const Onward& onward, const Paths& paths, std::uint32_t turn);
-    void light_softly(const Lamp& lamp, const trace::RayPacket& rays, int lane, const Path& path);
+    void light_softly(const Lamp& lamp, const trace::RayPacket& rays, int lane, std::uint32_t owner,
+                      std::uint32_t name);
     void dim(trace::RayPacket& shadows, int hit);
     void filter(trace::RayPacket& shadows, int hit);
     void absorb_gain(int lane, const Surface& medium, double length);
-    [[nodiscard]] LaneBits cross(const trace::HitPacket& met, const double (&view)[3][8],
-                                 const double (&length)[8], LaneBits lanes);
+    [[nodiscard]] LaneBits cross(const trace::HitPacket& met, const double (&view)[3][kRays],
+                                 const double (&length)[kRays], LaneBits lanes);
 
     const Stage* stage_;
     trace::Tracer tracer_;
@@ -100,8 +99,8 @@ private:
     Gains gains_;
     trace::RayPacket shadows_;
     trace::PassagePacket passages_;
-    std::array<const Surface*, 8> around_;  ///< what each ray to a lamp is in
-    double left_[8];  ///< of its light, behind the surfaces that it has passed
+    std::array<const Surface*, kRays> around_;  ///< what each ray to a lamp is in
+    double left_[kRays];  ///< of its light, behind the surfaces that it has passed
     // Of the batch in hand. Images and what is seen through surfaces wait apart: rays of one kind are closer.
     RayStack images_, views_;
     const EyeBatch* eyes_ = nullptr;

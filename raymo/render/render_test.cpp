@@ -151,14 +151,15 @@ TEST_CASE("render: rays answer the same alone and in batches, but for the order 
             for (std::size_t i = 0; i < 64; ++i) {
                 trace::RayQuery query;
                 query.ray = view.ray(std::min<double>(static_cast<double>(i), 58), y);
-                batch.rays[i / 8].set(static_cast<int>(i % 8), query);
+                batch.rays[i / kRays].set(static_cast<int>(i % kRays), query);
                 batch.seed[i] = 17 + i;
                 batch.sample[i] = 0;
             }
             together.answer(batch, all);
             for (std::size_t i = 0; i < batch.count; ++i) {
-                for (int lane = 0; lane < 8; ++lane)
-                    single.rays[0].set(lane, batch.rays[i / 8].query(static_cast<int>(i % 8)));
+                for (int lane = 0; lane < kRays; ++lane)
+                    single.rays[0].set(lane,
+                                       batch.rays[i / kRays].query(static_cast<int>(i % kRays)));
                 single.seed[0] = batch.seed[i];
                 single.sample[0] = 0;
                 alone.answer(single, one);

@@ -26,10 +26,10 @@ namespace HWY_NAMESPACE {
 using trace::first_lanes;
 using Colours = Triple<Lanes>;
 
-HWY_INLINE Colours load(const double (&v)[3][8], int first) {
+HWY_INLINE Colours load(const double (&v)[3][kRays], int first) {
     return {load(v[0] + first), load(v[1] + first), load(v[2] + first)};
 }
-HWY_INLINE void store(const Colours& c, double (&v)[3][8], int first) {
+HWY_INLINE void store(const Colours& c, double (&v)[3][kRays], int first) {
     store(c.x, v[0] + first);
     store(c.y, v[1] + first);
     store(c.z, v[2] + first);
@@ -40,10 +40,10 @@ HWY_INLINE Colours lane_select(Mask mask, const Colours& yes, const Colours& no)
 }
 HWY_INLINE Mask mask_at(LaneBits lanes, int first) { return mask_of(lanes >> first); }
 
-void eye_rays_8(const scene::View& view, const double (&x)[8], const double (&y)[8],
-                trace::RayPacket& rays) {
+void eye_rays_in_lanes(const scene::View& view, const double (&x)[kRays], const double (&y)[kRays],
+                       trace::RayPacket& rays) {
     rays.on_surface = 0;
-    for (int first = 0; first < 8; first += kLanes) {
+    for (int first = 0; first < kRays; first += kLanes) {
         const Colours d = everywhere<Lanes>(view.corner()) +
                           everywhere<Lanes>(view.step_x()) * load(x + first) +
                           everywhere<Lanes>(view.step_y()) * load(y + first);
@@ -60,11 +60,11 @@ void eye_rays_8(const scene::View& view, const double (&x)[8], const double (&y)
     }
 }
 
-void shade_background_8(const Surroundings& around, const double (&view)[3][8],
-                        double (&light)[3][8]) {
+void shade_background_in_lanes(const Surroundings& around, const double (&view)[3][kRays],
+                               double (&light)[3][kRays]) {
     const Colours bottom = everywhere<Lanes>(around.background.bottom);
     const Colours top = everywhere<Lanes>(around.background.top);
-    for (int first = 0; first < 8; first += kLanes) {
+    for (int first = 0; first < kRays; first += kLanes) {
         const Lanes up = Lanes(0.5) + Lanes(0.5) * load(view[2] + first);
         store(bottom * (Lanes(1.0) - up) + top * up, light, first);
     }
@@ -91,7 +91,7 @@ struct SurfacesInLanes {
 };
 HWY_INLINE SurfacesInLanes surfaces_at(const Spots& spots, int first) {
     const hn::RebindToSigned<D> integer;
-    alignas(64) std::int64_t offset[8] = {};
+    alignas(64) std::int64_t offset[kRays] = {};
     const Surface* base = spots.surface[first];
     const auto address = [](const Surface* s) { return reinterpret_cast<std::intptr_t>(s); };
     if (!spots.same) {
@@ -101,9 +101,9 @@ HWY_INLINE SurfacesInLanes surfaces_at(const Spots& spots, int first) {
     return {base, spots.surface + first, hn::Load(integer, offset), spots.same};
 }
 
-void shade_surroundings_8(const Surroundings& around, const double (&view)[3][8],
-                          const trace::HitPacket& hits, LaneBits lanes, Spots& spots,
-                          Onward& reflected, Onward& refracted) {
+void shade_surroundings_in_lanes(const Surroundings& around, const double (&view)[3][kRays],
+                                 const trace::HitPacket& hits, LaneBits lanes, Spots& spots,
+                                 Onward& reflected, Onward& refracted) {
     const Lanes one(1.0);
     const Lanes none(0.0);
     const Colours ambient = everywhere<Lanes>(around.ambient);
@@ -111,7 +111,7 @@ void shade_surroundings_8(const Surroundings& around, const double (&view)[3][8]
     const Colours top = everywhere<Lanes>(around.background.top);
     spots.lit = lanes & ~spots.dark & (~spots.transparent | hits.entering);
     reflected.lanes = refracted.lanes = 0;
-    for (int first = 0; first < 8; first += kLanes) {
+    for (int first = 0; first < kRays; first += kLanes) {
         const SurfacesInLanes surface = surfaces_at(spots, first);
         const Surface& base = *surface.base;
         const Mask tinted = mask_at(spots.tinted, first);
@@ -188,16 +188,17 @@ void shade_surroundings_8(const Surroundings& around, const double (&view)[3][8]
     }
 }
 
-LaneBits worth_tracing_8(const Onward& onward, double least) {
+LaneBits worth_tracing_in_lanes(const Onward& onward, double least) {
     LaneBits worth = 0;
-    for (int first = 0; first < 8; first += kLanes)
+    for (int first = 0; first < kRays; first += kLanes)
         worth |= bits(largest(load(onward.weight, first)) >= Lanes(least)) << first;
     return worth & onward.lanes;
 }
 
-void shade_passage_8(const trace::HitPacket& hits, const double (&view)[3][8], LaneBits lanes,
-                     const double (&transmission)[8], const double (&ratio)[8], double (&left)[8]) {
-    for (int first = 0; first < 8; first += kLanes) {
+void shade_passage_in_lanes(const trace::HitPacket& hits, const double (&view)[3][kRays],
+                            LaneBits lanes, const double (&transmission)[kRays],
+                            const double (&ratio)[kRays], double (&left)[kRays]) {
+    for (int first = 0; first < kRays; first += kLanes) {
         const Lanes cosine = lane_abs(dot(load(hits.normal, first), load(view, first)));
         const Lanes passed =
             load(transmission + first) * (Lanes(1.0) - fresnel_of(cosine, load(ratio + first)));
@@ -235,7 +236,7 @@ HWY_INLINE LitInLanes lit(const Lamp& lamp, Colours point, Colours normal, Colou
     Lanes density = facet_density(nh, surface(base.facets.shape), surface(base.facets.scale));
     slow &= first_lanes(kLanes);
     if (slow != 0) {
-        alignas(64) double cosines[8], densities[8];
+        alignas(64) double cosines[kRays], densities[kRays];
         store(nh, cosines);
         store(density, densities);
         for (; slow != 0; slow &= slow - 1) {
@@ -267,13 +268,13 @@ HWY_INLINE void put(const LitInLanes& lit, Colours point, Lanes point_error, int
     store(point_error, shadows.start_error + first);
 }
 
-void shade_by_lamp_8(const Lamp& lamp, const double (&view)[3][8], const trace::HitPacket& hits,
-                     LaneBits lanes, const Spots& spots, double least, Gains& gains,
-                     trace::RayPacket& shadows) {
+void shade_by_lamp_in_lanes(const Lamp& lamp, const double (&view)[3][kRays],
+                            const trace::HitPacket& hits, LaneBits lanes, const Spots& spots,
+                            double least, Gains& gains, trace::RayPacket& shadows) {
     gains.lanes = 0;
     shadows.on_surface = trace::kAllLanes;
     const Lanes half(0.5);
-    for (int first = 0; first < 8; first += kLanes) {
+    for (int first = 0; first < kRays; first += kLanes) {
         const Colours point = load(hits.point, first);
         put(lit(lamp, point, load(spots.normal, first), load(view, first), load(spots.nv + first),
                 load(spots.body, first), load(spots.weight, first), least,
@@ -283,21 +284,22 @@ void shade_by_lamp_8(const Lamp& lamp, const double (&view)[3][8], const trace::
     }
 }
 
-void add_gains_8(const Gains& gains, Spots& spots) {
-    for (int first = 0; first < 8; first += kLanes) {
+void add_gains_in_lanes(const Gains& gains, Spots& spots) {
+    for (int first = 0; first < kRays; first += kLanes) {
         const Mask there = mask_at(gains.lanes, first);
         const Colours light = load(spots.light, first);
         store(lane_select(there, light + load(gains.light, first), light), spots.light, first);
     }
 }
 
-void shade_by_lamp_places_8(const Lamp& lamp, const double (&view)[3][8],
-                            const trace::HitPacket& hits, int hit, LaneBits lanes,
-                            const double (&u)[8], const double (&v)[8], const Spots& spots,
-                            double least, Gains& gains, trace::RayPacket& shadows) {
+void shade_by_lamp_places_in_lanes(const Lamp& lamp, const double (&view)[3][kRays],
+                                   const trace::HitPacket& hits, int hit, LaneBits lanes,
+                                   const double (&u)[kRays], const double (&v)[kRays],
+                                   const Spots& spots, double least, Gains& gains,
+                                   trace::RayPacket& shadows) {
     gains.lanes = 0;
     shadows.on_surface = trace::kAllLanes;
-    const auto all = [hit](const double(&values)[3][8]) {
+    const auto all = [hit](const double(&values)[3][kRays]) {
         return Colours{Lanes(values[0][hit]), Lanes(values[1][hit]), Lanes(values[2][hit])};
     };
     const Colours point = all(hits.point);
@@ -308,7 +310,7 @@ void shade_by_lamp_places_8(const Lamp& lamp, const double (&view)[3][8],
                                   true};
     const LaneBits slow = everywhere_if(spots.slow);
     const Mask tinted = mask_of(everywhere_if(spots.tinted));
-    for (int first = 0; first < 8; first += kLanes) {
+    for (int first = 0; first < kRays; first += kLanes) {
         put(lit(lamp, point, all(spots.normal), all(view), Lanes(spots.nv[hit]), all(spots.body),
                 all(spots.weight), least, surface, slow, tinted, load(u + first), load(v + first),
                 mask_at(lanes, first)),
@@ -323,50 +325,51 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace raymo::render {
 
-HWY_EXPORT(eye_rays_8);
-HWY_EXPORT(shade_background_8);
-HWY_EXPORT(shade_surroundings_8);
-HWY_EXPORT(worth_tracing_8);
-HWY_EXPORT(shade_passage_8);
-HWY_EXPORT(shade_by_lamp_8);
-HWY_EXPORT(add_gains_8);
-HWY_EXPORT(shade_by_lamp_places_8);
+HWY_EXPORT(eye_rays_in_lanes);
+HWY_EXPORT(shade_background_in_lanes);
+HWY_EXPORT(shade_surroundings_in_lanes);
+HWY_EXPORT(worth_tracing_in_lanes);
+HWY_EXPORT(shade_passage_in_lanes);
+HWY_EXPORT(shade_by_lamp_in_lanes);
+HWY_EXPORT(add_gains_in_lanes);
+HWY_EXPORT(shade_by_lamp_places_in_lanes);
 
-void eye_rays(const scene::View& view, const double (&x)[8], const double (&y)[8],
+void eye_rays(const scene::View& view, const double (&x)[kRays], const double (&y)[kRays],
               trace::RayPacket& rays) {
-    HWY_DYNAMIC_DISPATCH(eye_rays_8)(view, x, y, rays);
+    HWY_DYNAMIC_DISPATCH(eye_rays_in_lanes)(view, x, y, rays);
 }
-void shade_background(const Surroundings& around, const double (&view)[3][8],
-                      double (&light)[3][8]) {
-    HWY_DYNAMIC_DISPATCH(shade_background_8)(around, view, light);
+void shade_background(const Surroundings& around, const double (&view)[3][kRays],
+                      double (&light)[3][kRays]) {
+    HWY_DYNAMIC_DISPATCH(shade_background_in_lanes)(around, view, light);
 }
-void shade_surroundings(const Surroundings& around, const double (&view)[3][8],
+void shade_surroundings(const Surroundings& around, const double (&view)[3][kRays],
                         const trace::HitPacket& hits, LaneBits lanes, Spots& spots,
                         Onward& reflected, Onward& refracted) {
-    HWY_DYNAMIC_DISPATCH(shade_surroundings_8)
+    HWY_DYNAMIC_DISPATCH(shade_surroundings_in_lanes)
     (around, view, hits, lanes, spots, reflected, refracted);
 }
 LaneBits worth_tracing(const Onward& onward, double least) {
-    return HWY_DYNAMIC_DISPATCH(worth_tracing_8)(onward, least);
+    return HWY_DYNAMIC_DISPATCH(worth_tracing_in_lanes)(onward, least);
 }
-void shade_passage(const trace::HitPacket& hits, const double (&view)[3][8], LaneBits lanes,
-                   const double (&transmission)[8], const double (&ratio)[8], double (&left)[8]) {
-    HWY_DYNAMIC_DISPATCH(shade_passage_8)(hits, view, lanes, transmission, ratio, left);
+void shade_passage(const trace::HitPacket& hits, const double (&view)[3][kRays], LaneBits lanes,
+                   const double (&transmission)[kRays], const double (&ratio)[kRays],
+                   double (&left)[kRays]) {
+    HWY_DYNAMIC_DISPATCH(shade_passage_in_lanes)(hits, view, lanes, transmission, ratio, left);
 }
-void shade_by_lamp(const Lamp& lamp, const double (&view)[3][8], const trace::HitPacket& hits,
+void shade_by_lamp(const Lamp& lamp, const double (&view)[3][kRays], const trace::HitPacket& hits,
                    LaneBits lanes, const Spots& spots, double least, Gains& gains,
                    trace::RayPacket& shadows) {
-    HWY_DYNAMIC_DISPATCH(shade_by_lamp_8)
+    HWY_DYNAMIC_DISPATCH(shade_by_lamp_in_lanes)
     (lamp, view, hits, lanes, spots, least, gains, shadows);
 }
 void add_gains(const Gains& gains, Spots& spots) {
-    HWY_DYNAMIC_DISPATCH(add_gains_8)(gains, spots);
+    HWY_DYNAMIC_DISPATCH(add_gains_in_lanes)(gains, spots);
 }
-void shade_by_lamp_places(const Lamp& lamp, const double (&view)[3][8],
+void shade_by_lamp_places(const Lamp& lamp, const double (&view)[3][kRays],
                           const trace::HitPacket& hits, int hit, LaneBits lanes,
-                          const double (&u)[8], const double (&v)[8], const Spots& spots,
+                          const double (&u)[kRays], const double (&v)[kRays], const Spots& spots,
                           double least, Gains& gains, trace::RayPacket& shadows) {
-    HWY_DYNAMIC_DISPATCH(shade_by_lamp_places_8)
+    HWY_DYNAMIC_DISPATCH(shade_by_lamp_places_in_lanes)
     (lamp, view, hits, hit, lanes, u, v, spots, least, gains, shadows);
 }
 

@@ -47,29 +47,33 @@ private:
     std::atomic_flag reporting_;
 };
 
-/// Calls f(x, y) for all cells of a tile, by blocks of 4 x 2, the shape of a packet of eight
-/// coherent rays.
+/// Pixels each way of the squares whose rays make a packet.
+inline constexpr int kSquare = 4;
+static_assert(kSquare * kSquare == trace::kRays);
+
+/// Calls f(x, y) for all cells of a tile, square by square, so that those that follow each other are close.
 template <class F>
 void for_each_cell(const Rect& tile, F&& f) {
-    for (int y = tile.y0; y < tile.y1; y += 2) {
-        for (int x = tile.x0; x < tile.x1; x += 4) {
-            for (int v = y; v < std::min(y + 2, tile.y1); ++v) {
-                for (int u = x; u < std::min(x + 4, tile.x1); ++u) f(u, v);
+    for (int y = tile.y0; y < tile.y1; y += kSquare) {
+        for (int x = tile.x0; x < tile.x1; x += kSquare) {
+            for (int v = y; v < std::min(y + kSquare, tile.y1); ++v) {
+                for (int u = x; u < std::min(x + kSquare, tile.x1); ++u) f(u, v);
             }
         }
     }
 }
 
-/// Calls cell(x, y) for the blocks of 4 x 2 that lie within a tile and whose corners those are, and pixel(x, y) for what
-/// is left of it beside them; in the same order.
-template <class Cell, class Pixel>
-void for_each_block(const Rect& tile, Cell&& cell, Pixel&& pixel) {
-    for (int y = tile.y0; y < tile.y1; y += 2) {
-        for (int x = tile.x0; x < tile.x1; x += 4) {
-            if (x + 4 <= tile.x1 && y + 2 <= tile.y1) {
-                cell(x, y);
+/// Calls square(x, y) for the squares that lie within a tile and whose corners those are, and pixel(x, y) for what is left of
+/// it beside them; in the same order.
+template <class Square, class Pixel>
+void for_each_square(const Rect& tile, Square&& square, Pixel&& pixel) {
+    for (int y = tile.y0; y < tile.y1; y += kSquare) {
+        for (int x = tile.x0; x < tile.x1; x += kSquare) {
+            const Rect part{x, y, std::min(x + kSquare, tile.x1), std::min(y + kSquare, tile.y1)};
+            if (part.x1 - x == kSquare && part.y1 - y == kSquare) {
+                square(x, y);
             } else {
-                for_each_cell({x, y, std::min(x + 4, tile.x1), std::min(y + 2, tile.y1)}, pixel);
+                for_each_cell(part, pixel);
             }
         }
     }
@@ -117,30 +121,28 @@ public:
         if (shader_->stage().soft) seed(x, y);
         add(x + 0.5, y + 0.5, 0, pixel);
     }
-    /// The same for the eight pixels of a block with the corner (x, y); `pixel` is that of the corner, rows are `stride` apart.
+    /// The same for the pixels of a square with the corner (x, y); `pixel` is that of the corner, rows are `stride` apart.
     void add_middles(int x, int y, std::size_t pixel, std::size_t stride) {
-        if (shader_->stage().soft || batch_.count % 8 != 0) {
-            for (int k = 0; k < 8; ++k) {
-                const int u = k % 4;
-                const int v = k / 4;
-                add_middle(
-                    x + u, y + v,
-                    pixel + static_cast<std::size_t>(u) + static_cast<std::size_t>(v) * stride);
+        if (shader_->stage().soft || batch_.count % trace::kRays != 0) {
+            for (int v = 0; v < kSquare; ++v) {
+                const std::size_t row = pixel + static_cast<std::size_t>(v) * stride;
+                for (int u = 0; u < kSquare; ++u)
+                    add_middle(x + u, y + v, row + static_cast<std::size_t>(u));
             }
             return;
         }
         const std::size_t first = batch_.count;
-        Eight& xs = x_[first / 8];
-        Eight& ys = y_[first / 8];
-        for (std::size_t k = 0; k < 4; ++k) {
-            xs.at[k] = xs.at[4 + k] = x + (static_cast<double>(k) + 0.5);
-            ys.at[k] = y + 0.5;
-            ys.at[4 + k] = y + 1.5;
-            pixel_[first + k] = pixel + k;
-            pixel_[first + 4 + k] = pixel + stride + k;
+        Row& xs = x_[first / trace::kRays];
+        Row& ys = y_[first / trace::kRays];
+        for (std::size_t k = 0; k < trace::kRays; ++k) {
+            const std::size_t u = k % kSquare;
+            const std::size_t v = k / kSquare;
+            xs.at[k] = x + (static_cast<double>(u) + 0.5);
+            ys.at[k] = y + (static_cast<double>(v) + 0.5);
+            pixel_[first + k] = pixel + u + v * stride;
         }
-        std::fill_n(batch_.sample.begin() + first, 8, 0U);
-        batch_.count += 8;
+        std::fill_n(batch_.sample.begin() + first, trace::kRays, 0U);
+        batch_.count += trace::kRays;
         if (batch_.count == EyeBatch::kMost) flush();
     }
     /// Ray number `k` of a pixel.
@@ -153,7 +155,7 @@ public:
     /// Must be called after the last ray.
     void flush() {
         if (batch_.count == 0) return;
-        const std::size_t packets = (batch_.count + 7) / 8;
+        const std::size_t packets = (batch_.count + trace::kRays - 1) / trace::kRays;
         for (std::size_t i = 0; i < packets; ++i) {
             if (i + 1 == packets) fill_up();
             eye_rays(s_->view, x_[i].at, y_[i].at, batch_.rays[i]);
@@ -171,8 +173,8 @@ private:
     }
     void add(double x, double y, std::uint32_t sample, std::size_t pixel) {
         const std::size_t i = batch_.count++;
-        x_[i / 8].at[i % 8] = x;
-        y_[i / 8].at[i % 8] = y;
+        number(x_, i) = x;
+        number(y_, i) = y;
         batch_.sample[i] = sample;
         pixel_[i] = pixel;
         if (batch_.count == EyeBatch::kMost) flush();
@@ -180,29 +182,33 @@ private:
     /// The lanes of the last packet that no ray is in get the last ray.
     void fill_up() {
         const std::size_t last = batch_.count - 1;
-        for (std::size_t i = batch_.count; i % 8 != 0; ++i) {
-            x_[i / 8].at[i % 8] = x_[last / 8].at[last % 8];
-            y_[i / 8].at[i % 8] = y_[last / 8].at[last % 8];
+        for (std::size_t i = batch_.count; i % trace::kRays != 0; ++i) {
+            number(x_, i) = number(x_, last);
+            number(y_, i) = number(y_, last);
         }
     }
     void open_lens() {
         for (std::size_t i = 0; i < batch_.count; ++i) {
             trace::RayQuery query;
-            query.ray =
-                s_->view.ray(x_[i / 8].at[i % 8], y_[i / 8].at[i % 8], lens_[i].u, lens_[i].v);
-            batch_.rays[i / 8].set(static_cast<int>(i % 8), query);
+            query.ray = s_->view.ray(number(x_, i), number(y_, i), lens_[i].u, lens_[i].v);
+            batch_.rays[i / trace::kRays].set(static_cast<int>(i % trace::kRays), query);
         }
     }
 
-    struct alignas(64) Eight {
-        double at[8];
+    /// A number for each ray, packet by packet.
+    struct alignas(64) Row {
+        double at[trace::kRays];
     };
+    using Rows = std::array<Row, EyeBatch::kMost / trace::kRays>;
+    static double& number(Rows& rows, std::size_t i) {
+        return rows[i / trace::kRays].at[i % trace::kRays];
+    }
     const Sitting* s_;
     RayShader* shader_;
     Take take_;
     EyeBatch batch_;
     Answers answers_;
-    std::array<Eight, EyeBatch::kMost / 8> x_, y_;  ///< in the picture
+    Rows x_, y_;  ///< in the picture
     std::array<Point2, EyeBatch::kMost> lens_;
     std::array<std::size_t, EyeBatch::kMost> pixel_;
 };

@@ -3,27 +3,36 @@
 // Slab test in floats. Boxes carry a margin that covers the rounding (flatten.cpp), so a box that a ray meets is never
 // missed; a box that is met in vain costs time, not correctness. Used children of a node stand before unused ones.
 
-using F = hn::CappedTag<float, 8>;
-inline constexpr int kFloats = static_cast<int>(HWY_MIN(8, HWY_LANES(float)));
+/// Of children of a node, and of rays of a packet.
+using F = hn::CappedTag<float, BvhNode::kWidth>;
+using R = hn::CappedTag<float, kRays>;
+inline constexpr int kFloats = static_cast<int>(HWY_MIN(BvhNode::kWidth, HWY_LANES(float)));
+inline constexpr int kRayFloats = static_cast<int>(HWY_MIN(kRays, HWY_LANES(float)));
 using Floats = hn::Vec<F>;
+using RayFloats = hn::Vec<R>;
+/// Children of a node, one bit each.
+inline constexpr std::uint32_t kAllChildren = (1U << BvhNode::kWidth) - 1U;
 
 /// One bit a lane, and back.
-HWY_INLINE std::uint32_t float_bits(hn::Mask<F> mask) {
+template <class Tag>
+HWY_INLINE std::uint32_t float_bits(Tag tag, hn::Mask<Tag> mask) {
     std::uint8_t bytes[8] = {};
-    hn::StoreMaskBits(F(), mask, bytes);
-    return bytes[0];
+    hn::StoreMaskBits(tag, mask, bytes);
+    return static_cast<std::uint32_t>(bytes[0]) | static_cast<std::uint32_t>(bytes[1]) << 8;
 }
-HWY_INLINE hn::Mask<F> float_mask(std::uint32_t lanes) {
-    const std::uint8_t bytes[8] = {static_cast<std::uint8_t>(lanes)};
-    return hn::LoadMaskBits(F(), bytes);
+template <class Tag>
+HWY_INLINE hn::Mask<Tag> float_mask(Tag tag, std::uint32_t lanes) {
+    const std::uint8_t bytes[8] = {static_cast<std::uint8_t>(lanes),
+                                   static_cast<std::uint8_t>(lanes >> 8)};
+    return hn::LoadMaskBits(tag, bytes);
 }
 
 /// Rays of a packet, as many as fit a vector.
 struct RaysInFloats {
-    Floats ox, oy, oz, ix, iy, iz, from, to;
+    RayFloats ox, oy, oz, ix, iy, iz, from, to;
 };
-HWY_INLINE RaysInFloats rays_in_floats(const Context<8>& c, int first) {
-    const F f;
+HWY_INLINE RaysInFloats rays_in_floats(const Context<kRays>& c, int first) {
+    const R f;
     return {hn::Load(f, c.fo[0] + first),      hn::Load(f, c.fo[1] + first),
             hn::Load(f, c.fo[2] + first),      hn::Load(f, c.inverse[0] + first),
             hn::Load(f, c.inverse[1] + first), hn::Load(f, c.inverse[2] + first),
@@ -31,25 +40,26 @@ HWY_INLINE RaysInFloats rays_in_floats(const Context<8>& c, int first) {
 }
 
 /// Narrows [enter, leave] to the slab lo <= o + t / inverse <= hi.
-HWY_INLINE void clip(Floats lo, Floats hi, Floats o, Floats inverse, Floats& enter, Floats& leave) {
-    const Floats p = hn::Mul(hn::Sub(lo, o), inverse);
-    const Floats q = hn::Mul(hn::Sub(hi, o), inverse);
+template <class V>
+HWY_INLINE void clip(V lo, V hi, V o, V inverse, V& enter, V& leave) {
+    const V p = hn::Mul(hn::Sub(lo, o), inverse);
+    const V q = hn::Mul(hn::Sub(hi, o), inverse);
     enter = hn::Max(enter, hn::Min(p, q));
     leave = hn::Min(leave, hn::Max(p, q));
 }
 
 /// Which rays of a packet meet child `k` of a node.
 HWY_INLINE std::uint32_t lanes_in_box(const RaysInFloats* rays, const BvhNode& node, int k) {
-    const F f;
+    const R f;
     std::uint32_t lanes = 0;
-    for (int v = 0; v < 8 / kFloats; ++v) {
+    for (int v = 0; v < kRays / kRayFloats; ++v) {
         const RaysInFloats& r = rays[v];
-        Floats enter = r.from;
-        Floats leave = r.to;
+        RayFloats enter = r.from;
+        RayFloats leave = r.to;
         clip(hn::Set(f, node.lo[0][k]), hn::Set(f, node.hi[0][k]), r.ox, r.ix, enter, leave);
         clip(hn::Set(f, node.lo[1][k]), hn::Set(f, node.hi[1][k]), r.oy, r.iy, enter, leave);
         clip(hn::Set(f, node.lo[2][k]), hn::Set(f, node.hi[2][k]), r.oz, r.iz, enter, leave);
-        lanes |= float_bits(hn::Le(enter, leave)) << (v * kFloats);
+        lanes |= float_bits(f, hn::Le(enter, leave)) << (v * kRayFloats);
     }
     return lanes;
 }
@@ -60,19 +70,19 @@ struct Met {
     float near;
 };
 HWY_INLINE Met meet_box(const RaysInFloats* rays, const BvhNode& node, int k) {
-    const F f;
+    const R f;
     Met out{0, 0.0F};
-    Floats least = hn::Set(f, std::numeric_limits<float>::infinity());
-    for (int v = 0; v < 8 / kFloats; ++v) {
+    RayFloats least = hn::Set(f, std::numeric_limits<float>::infinity());
+    for (int v = 0; v < kRays / kRayFloats; ++v) {
         const RaysInFloats& r = rays[v];
-        Floats enter = r.from;
-        Floats leave = r.to;
+        RayFloats enter = r.from;
+        RayFloats leave = r.to;
         clip(hn::Set(f, node.lo[0][k]), hn::Set(f, node.hi[0][k]), r.ox, r.ix, enter, leave);
         clip(hn::Set(f, node.lo[1][k]), hn::Set(f, node.hi[1][k]), r.oy, r.iy, enter, leave);
         clip(hn::Set(f, node.lo[2][k]), hn::Set(f, node.hi[2][k]), r.oz, r.iz, enter, leave);
         const auto hit = hn::Le(enter, leave);
         least = hn::Min(least, hn::IfThenElse(hit, enter, least));
-        out.lanes |= float_bits(hit) << (v * kFloats);
+        out.lanes |= float_bits(f, hit) << (v * kRayFloats);
     }
     out.near = hn::GetLane(hn::MinOfLanes(f, least));
     return out;
@@ -89,24 +99,24 @@ struct Beam {
     float from, to;
 };
 HWY_INLINE float least_of(const float* values, std::uint32_t lanes) {
-    const F f;
-    Floats least = hn::Set(f, std::numeric_limits<float>::infinity());
-    for (int v = 0; v < 8; v += kFloats) {
-        const Floats x = hn::Load(f, values + v);
-        least = hn::Min(least, hn::IfThenElse(float_mask(lanes >> v), x, least));
+    const R f;
+    RayFloats least = hn::Set(f, std::numeric_limits<float>::infinity());
+    for (int v = 0; v < kRays; v += kRayFloats) {
+        const RayFloats x = hn::Load(f, values + v);
+        least = hn::Min(least, hn::IfThenElse(float_mask(f, lanes >> v), x, least));
     }
     return hn::GetLane(hn::MinOfLanes(f, least));
 }
 HWY_INLINE float most_of(const float* values, std::uint32_t lanes) {
-    const F f;
-    Floats most = hn::Set(f, -std::numeric_limits<float>::infinity());
-    for (int v = 0; v < 8; v += kFloats) {
-        const Floats x = hn::Load(f, values + v);
-        most = hn::Max(most, hn::IfThenElse(float_mask(lanes >> v), x, most));
+    const R f;
+    RayFloats most = hn::Set(f, -std::numeric_limits<float>::infinity());
+    for (int v = 0; v < kRays; v += kRayFloats) {
+        const RayFloats x = hn::Load(f, values + v);
+        most = hn::Max(most, hn::IfThenElse(float_mask(f, lanes >> v), x, most));
     }
     return hn::GetLane(hn::MaxOfLanes(f, most));
 }
-/// The least (or the most) of each of eight lists of eight floats, over the lanes that count.
+/// The least (or the most) of each of eight lists of floats, over the lanes that count.
 template <bool kMost>
 HWY_INLINE void ends_of(const float* const (&lists)[8], std::uint32_t lanes, float (&out)[8]) {
 #if HWY_TARGET <= HWY_AVX2
@@ -114,9 +124,15 @@ HWY_INLINE void ends_of(const float* const (&lists)[8], std::uint32_t lanes, flo
     const hn::Repartition<double, F> pairs;
     const auto other = hn::Set(f, kMost ? -std::numeric_limits<float>::infinity()
                                         : std::numeric_limits<float>::infinity());
-    const auto mask = float_mask(lanes);
     const auto better = [](Floats a, Floats b) { return kMost ? hn::Max(a, b) : hn::Min(a, b); };
-    const auto read = [&](int i) { return hn::IfThenElse(mask, hn::Load(f, lists[i]), other); };
+    const auto read = [&](int i) {
+        const auto part = [&](int v) {
+            return hn::IfThenElse(float_mask(f, lanes >> v), hn::Load(f, lists[i] + v), other);
+        };
+        Floats best = part(0);
+        for (int v = kFloats; v < kRays; v += kFloats) best = better(best, part(v));
+        return best;
+    };
     // Two lists side by side in each block, then four, then all: every step halves what is left of each.
     const auto two = [&](int i) {
         const Floats x = read(i);
@@ -137,7 +153,7 @@ HWY_INLINE void ends_of(const float* const (&lists)[8], std::uint32_t lanes, flo
         out[i] = kMost ? most_of(lists[i], lanes) : least_of(lists[i], lanes);
 #endif
 }
-HWY_INLINE Beam beam_of(const Context<8>& c, std::uint32_t lanes) {
+HWY_INLINE Beam beam_of(const Context<kRays>& c, std::uint32_t lanes) {
     Beam beam{};
     const float* const lists[8] = {c.inverse[0], c.inverse[1], c.inverse[2], c.fo[0],
                                    c.fo[1],      c.fo[2],      c.from,       c.to};
@@ -157,6 +173,16 @@ HWY_INLINE Beam beam_of(const Context<8>& c, std::uint32_t lanes) {
     beam.to = most[7];
     beam.usable = true;
     return beam;
+}
+/// The children of a node that there are, one bit each.
+HWY_INLINE std::uint32_t used_children(const BvhNode& node) {
+    const F f;
+    std::uint32_t used = 0;
+    for (int v = 0; v < BvhNode::kWidth; v += kFloats) {
+        used |= float_bits(f, hn::Le(hn::Load(f, node.lo[0] + v), hn::Load(f, node.hi[0] + v)))
+                << v;
+    }
+    return used;
 }
 /// The children of a node that the beam may meet, one bit each.
 HWY_INLINE std::uint32_t meet_node(const Beam& beam, const BvhNode& node, float* near) {
@@ -178,13 +204,13 @@ HWY_INLINE std::uint32_t meet_node(const Beam& beam, const BvhNode& node, float*
             leave = hn::Min(leave, hn::Max(hn::Mul(back, least), hn::Mul(back, most)));
         }
         hn::Store(enter, f, near + v);
-        met |= float_bits(hn::Le(enter, leave)) << v;
+        met |= float_bits(f, hn::Le(enter, leave)) << v;
     }
     return met;
 }
 
 /// The children of a node that ray `i` of a packet meets between two places, one bit each.
-HWY_INLINE std::uint32_t meet_node_alone(const Context<8>& c, int i, float from, float to,
+HWY_INLINE std::uint32_t meet_node_alone(const Context<kRays>& c, int i, float from, float to,
                                          const BvhNode& node) {
     const F f;
     std::uint32_t met = 0;
@@ -195,7 +221,7 @@ HWY_INLINE std::uint32_t meet_node_alone(const Context<8>& c, int i, float from,
             clip(hn::Load(f, node.lo[a] + v), hn::Load(f, node.hi[a] + v), hn::Set(f, c.fo[a][i]),
                  hn::Set(f, c.inverse[a][i]), enter, leave);
         }
-        met |= float_bits(hn::Le(enter, leave)) << v;
+        met |= float_bits(f, hn::Le(enter, leave)) << v;
     }
     return met;
 }
@@ -211,18 +237,18 @@ HWY_INLINE void fetch_child(const CompiledSolid& solid, const BvhNode& node, int
 }
 
 /// A packet of rays against the children of a node, for the walk of a simple solid.
-HWY_INLINE void open_node(Walker<8>& w, std::uint32_t ref, std::uint32_t lanes, const Beam& beam) {
-    const Context<8>& c = w.contexts[0];
+HWY_INLINE void open_node(Walker<kRays>& w, std::uint32_t ref, std::uint32_t lanes,
+                          const Beam& beam) {
+    const Context<kRays>& c = w.contexts[0];
     const BvhNode& node = c.solid->nodes[ref];
-    RaysInFloats rays[8 / kFloats];
-    for (int v = 0; v < 8 / kFloats; ++v) rays[v] = rays_in_floats(c, v * kFloats);
+    RaysInFloats rays[kRays / kRayFloats];
+    for (int v = 0; v < kRays / kRayFloats; ++v) rays[v] = rays_in_floats(c, v * kRayFloats);
     ++w.boxes;
     w.near_boxes.make_room(BvhNode::kWidth);
     alignas(64) float near[8];
-    std::uint32_t met = beam.usable ? meet_node(beam, node, near) : 0xffU;
+    std::uint32_t met = beam.usable ? meet_node(beam, node, near) : used_children(node);
     for (; met != 0; met &= met - 1) {
         const int k = __builtin_ctz(met);
-        if (node.lo[0][k] > node.hi[0][k]) break;
         // Rays that do not count may be nearer, and a beam is nearer than its rays: that opens a box too early, never too late.
         Met by{lanes, near[k]};
         if (!beam.usable) {
@@ -238,11 +264,11 @@ HWY_INLINE void open_node(Walker<8>& w, std::uint32_t ref, std::uint32_t lanes, 
 }
 
 /// A packet of rays against one box after the other.
-HWY_INLINE void open_node(Walker<8>& w, const Unopened& box, std::uint32_t lanes) {
-    const Context<8>& c = w.contexts[box.context];
+HWY_INLINE void open_node(Walker<kRays>& w, const Unopened& box, std::uint32_t lanes) {
+    const Context<kRays>& c = w.contexts[box.context];
     const BvhNode& node = c.solid->nodes[box.ref];
-    RaysInFloats rays[8 / kFloats];
-    for (int v = 0; v < 8 / kFloats; ++v) rays[v] = rays_in_floats(c, v * kFloats);
+    RaysInFloats rays[kRays / kRayFloats];
+    for (int v = 0; v < kRays / kRayFloats; ++v) rays[v] = rays_in_floats(c, v * kRayFloats);
     ++w.boxes;
     w.unopened.make_room(BvhNode::kWidth);
     for (int k = 0; k < BvhNode::kWidth; ++k) {
@@ -260,7 +286,7 @@ HWY_INLINE void open_node(Walker<8>& w, const Unopened& box, std::uint32_t lanes
             }
         }
         w.unopened.put(
-            {t, node.ref[k], box.context, node.count[k], static_cast<std::uint8_t>(by.lanes)});
+            {t, node.ref[k], box.context, node.count[k], static_cast<std::uint16_t>(by.lanes)});
     }
 }
 
@@ -273,7 +299,7 @@ HWY_INLINE void open_node(Walker<1>& w, const Unopened& box, std::uint32_t) {
     std::uint32_t met = 0;
     w.unopened.make_room(BvhNode::kWidth);
     alignas(64) float near[8];
-    for (int i = 0; i < 8; i += kFloats) {
+    for (int i = 0; i < BvhNode::kWidth; i += kFloats) {
         Floats enter = hn::Set(f, c.from[0]);
         Floats leave = hn::Set(f, c.to[0]);
         for (int a = 0; a < 3; ++a) {
@@ -281,7 +307,7 @@ HWY_INLINE void open_node(Walker<1>& w, const Unopened& box, std::uint32_t) {
                  hn::Set(f, c.inverse[a][0]), enter, leave);
         }
         hn::Store(enter, f, near + i);
-        met |= float_bits(hn::Le(enter, leave)) << i;
+        met |= float_bits(f, hn::Le(enter, leave)) << i;
     }
     for (; met != 0; met &= met - 1) {
         const int k = __builtin_ctz(met);

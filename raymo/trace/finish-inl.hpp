@@ -2,7 +2,7 @@
 // HWY_NAMESPACE.
 
 /// The material that the surface of leaf `index` shows.
-HWY_INLINE csg::MaterialId material_shown(const Walker<8>& w, std::uint32_t index) {
+HWY_INLINE csg::MaterialId material_shown(const Walker<kRays>& w, std::uint32_t index) {
     const CompiledSolid& base = *w.contexts[0].solid;
     const Look& look = w.data->looks[base.leaves[index].look];
     if (!look.borrows) return look.material;
@@ -22,21 +22,22 @@ HWY_INLINE csg::MaterialId material_shown(const Walker<8>& w, std::uint32_t inde
     return material;
 }
 
-/// Puts a number into the lanes `lanes` of eight.
+/// Puts a number into the lanes `lanes`.
 HWY_INLINE void put(std::uint32_t value, std::uint32_t lanes, std::uint32_t* to) {
-    const hn::CappedTag<std::uint32_t, 8> u;
-    for (std::size_t first = 0; first < 8; first += hn::Lanes(u)) {
-        const std::uint8_t bytes[8] = {static_cast<std::uint8_t>(lanes >> first)};
+    const hn::CappedTag<std::uint32_t, kRays> u;
+    for (std::size_t first = 0; first < kRays; first += hn::Lanes(u)) {
+        const std::uint8_t bytes[8] = {static_cast<std::uint8_t>(lanes >> first),
+                                       static_cast<std::uint8_t>(lanes >> first >> 8)};
         const auto mask = hn::LoadMaskBits(u, bytes);
         hn::Store(hn::IfThenElse(mask, hn::Set(u, value), hn::Load(u, to + first)), u, to + first);
     }
 }
 
 /// Fills in what is told of the rays `same`, which all meet the surface of one leaf. `number`: as in Nearest::leaf.
-HWY_INLINE void finish_leaf(const Walker<8>& w, double number, std::uint32_t same,
+HWY_INLINE void finish_leaf(const Walker<kRays>& w, double number, std::uint32_t same,
                             HitPacket& hits) {
     const Nearest& n = w.nearest;
-    const Context<8>& c = w.contexts[0];
+    const Context<kRays>& c = w.contexts[0];
     const CompiledSolid& base = *c.solid;
     const auto index = static_cast<std::uint32_t>(number);
     const bool entering = number == static_cast<double>(index);
@@ -53,7 +54,7 @@ HWY_INLINE void finish_leaf(const Walker<8>& w, double number, std::uint32_t sam
     put(0, same, hits.instance);
     hits.entering = (hits.entering & ~same) | (entering ? same : 0U);
     std::uint32_t inside = 0;
-    for (int i = 0; i < 8; i += kLanes) inside |= bits(load(n.inside + i) >= Lanes(0.0)) << i;
+    for (int i = 0; i < kRays; i += kLanes) inside |= bits(load(n.inside + i) >= Lanes(0.0)) << i;
     for (inside &= same; inside != 0; inside &= inside - 1) {
         const int i = __builtin_ctz(inside);
         const Leaf& around = base.leaves[static_cast<std::uint32_t>(n.inside[i])];
@@ -61,7 +62,7 @@ HWY_INLINE void finish_leaf(const Walker<8>& w, double number, std::uint32_t sam
     }
 
     const Lanes sign(w.data->looks[leaf.look].cuts ? -1.0 : 1.0);
-    for (int first = 0; first < 8; first += kLanes) {
+    for (int first = 0; first < kRays; first += kLanes) {
         const std::uint32_t here = (same >> first) & ((1U << kLanes) - 1U);
         if (here == 0) continue;
         const Mask mask = mask_of(here);
@@ -77,13 +78,12 @@ HWY_INLINE void finish_leaf(const Walker<8>& w, double number, std::uint32_t sam
         }
         if (frame.in_blocks) {
             solids::PlaceBlock places;
-            store(normal.x, places.p[0] + first);
-            store(normal.y, places.p[1] + first);
-            store(normal.z, places.p[2] + first);
-            store(face, places.face + first);
-            block_normals(w.data->kernels, frame, places, here << first);
-            normal = {load(places.p[0] + first), load(places.p[1] + first),
-                      load(places.p[2] + first)};
+            store(normal.x, places.p[0]);
+            store(normal.y, places.p[1]);
+            store(normal.z, places.p[2]);
+            store(face, places.face);
+            block_normals(w.data->kernels, frame, places, here);
+            normal = {load(places.p[0]), load(places.p[1]), load(places.p[2])};
         } else {
             visit_kernel(w, frame, [&]<class K>(const K& kernel) {
                 if constexpr (kSpansInLanes < K >> 0 && !BlockKernel<K>)
@@ -91,9 +91,8 @@ HWY_INLINE void finish_leaf(const Walker<8>& w, double number, std::uint32_t sam
             });
         }
         normal = normal_outside(frame, normal);
-        const Surface<Lanes> surface =
-            surface_at(base, o, d, normal, t, load(n.error + first), load(n.shift + first),
-                       load(n.t_per_s + first), Lanes(0.0));
+        const Surface<Lanes> surface = surface_at(base, o, d, normal, t, load(n.error + first),
+                                                  load(n.shift + first), load(n.t_per_s + first));
         const auto put_lanes = [&](Lanes value, double* to) {
             store(lane_select(mask, value, load(to + first)), to + first);
         };
@@ -114,12 +113,13 @@ HWY_INLINE void finish_leaf(const Walker<8>& w, double number, std::uint32_t sam
 }
 
 /// Fills in what is told of the surfaces that the rays `lanes` meet, leaf by leaf.
-HWY_INLINE void finish_surfaces(const Walker<8>& w, std::uint32_t lanes, HitPacket& hits) {
+HWY_INLINE void finish_surfaces(const Walker<kRays>& w, std::uint32_t lanes, HitPacket& hits) {
     const Nearest& n = w.nearest;
     for (std::uint32_t rest = lanes; rest != 0;) {
         const double number = n.leaf[__builtin_ctz(rest)];
         std::uint32_t same = 0;
-        for (int i = 0; i < 8; i += kLanes) same |= bits(load(n.leaf + i) == Lanes(number)) << i;
+        for (int i = 0; i < kRays; i += kLanes)
+            same |= bits(load(n.leaf + i) == Lanes(number)) << i;
         same &= rest;
         rest &= ~same;
         finish_leaf(w, number, same, hits);

@@ -187,7 +187,7 @@ void open_instance(Walker<L>& w, std::uint32_t parent, std::uint32_t leaf_index,
         }
     }
     w.unopened.make_room(1);
-    w.unopened.put({nearest, 0, index, 0, static_cast<std::uint8_t>(lanes)});
+    w.unopened.put({nearest, 0, index, 0, static_cast<std::uint16_t>(lanes)});
 }
 
 template <int L, class Visit>
@@ -287,69 +287,68 @@ HWY_INLINE void open_leaf(Walker<1>& w, std::uint32_t context, std::uint32_t ind
     });
 }
 
-/// A leaf whose kernel answers blocks.
-HWY_INLINE void open_block_leaf(Walker<8>& w, std::uint32_t context, std::uint32_t index,
-                                const Frame& frame, std::uint32_t lanes) {
-    const Context<8>& c = w.contexts[context];
+/// A leaf whose kernel answers blocks; the rays from `first` on, as many as a vector holds, of which those in `lanes` count.
+HWY_INLINE void open_block_leaf(Walker<kRays>& w, std::uint32_t context, std::uint32_t index,
+                                const Frame& frame, int first, std::uint32_t lanes) {
+    const Context<kRays>& c = w.contexts[context];
     const Leaf& leaf = c.solid->leaves[index];
     solids::RayBlock block;
     alignas(64) double shift[8];
     alignas(64) double slack[8];
-    for (int first = 0; first < 8; first += kLanes) {
-        Local<Lanes> local =
-            localise<Lanes>(frame, leaf, load(c.o[0] + first), load(c.o[1] + first),
-                            load(c.o[2] + first), load(c.d[0] + first), load(c.d[1] + first),
-                            load(c.d[2] + first), load(c.error + first));
-        if (w.mode != Mode::all) {
-            alignas(64) double start[8];
-            for (int i = 0; i < kLanes; ++i) start[i] = w.lanes[first + i].start;
-            local.ray.from = end_of_past(load(start), load(c.t0 + first), local);
-        }
-        store(local.ray, block, first);
-        store(local.shift, shift + first);
-        store(start_slack(load(c.start_error + first), local.place_error), slack + first);
+    Local<Lanes> local = localise<Lanes>(
+        frame, leaf, load(c.o[0] + first), load(c.o[1] + first), load(c.o[2] + first),
+        load(c.d[0] + first), load(c.d[1] + first), load(c.d[2] + first), load(c.error + first));
+    if (w.mode != Mode::all) {
+        alignas(64) double start[8];
+        for (int i = 0; i < kLanes; ++i) start[i] = w.lanes[first + i].start;
+        local.ray.from = end_of_past(load(start), load(c.t0 + first), local);
     }
+    store(local.ray, block, 0);
+    store(local.shift, shift);
+    store(start_slack(load(c.start_error + first), local.place_error), slack);
+    const auto alone = [&](int ray) {
+        return localise<double>(frame, leaf, c.o[0][ray], c.o[1][ray], c.o[2][ray], c.d[0][ray],
+                                c.d[1][ray], c.d[2][ray], c.error[ray]);
+    };
     solids::SpanBlock spans;
     block_spans(w.data->kernels, frame, block, lanes, spans);
     for (int k = 0; k < spans.count; ++k) {
         for (std::uint32_t rest = spans.valid[k]; rest != 0; rest &= rest - 1) {
             const int i = __builtin_ctz(rest);
-            const Placing at{c.t0[i], shift[i], slack[i], index, context};
+            const Placing at{c.t0[first + i], shift[i], slack[i], index, context};
             const auto end = [&](const solids::SpanBlock::End& e) -> solids::SpanEnd {
                 return {e.s[k][i], e.error[k][i], static_cast<std::uint16_t>(e.face[k][i])};
             };
             solids::SpanEnd enter = end(spans.enter);
             const solids::SpanEnd exit = end(spans.exit);
             if (holds_end_of_past(enter.s, exit.s, block.from[i])) {
-                const auto local = localise<double>(frame, leaf, c.o[0][i], c.o[1][i], c.o[2][i],
-                                                    c.d[0][i], c.d[1][i], c.d[2][i], c.error[i]);
                 solids::SpanList all;
-                spans_in_full(w.data->kernels, frame, local.ray, all);
+                spans_in_full(w.data->kernels, frame, alone(first + i).ray, all);
                 enter = beginning(all, block.from[i], enter);
             }
-            add_span(w, w.lanes[i], event_at(at, enter.s, enter.error, enter.face, true),
+            add_span(w, w.lanes[first + i], event_at(at, enter.s, enter.error, enter.face, true),
                      event_at(at, exit.s, exit.error, exit.face, false));
         }
     }
     for (std::uint32_t rest = spans.left_over; rest != 0; rest &= rest - 1) {
         const int i = __builtin_ctz(rest);
-        const auto local = localise<double>(frame, leaf, c.o[0][i], c.o[1][i], c.o[2][i], c.d[0][i],
-                                            c.d[1][i], c.d[2][i], c.error[i]);
+        const auto ray = alone(first + i);
         solids::SpanList list;
-        spans_in_full(w.data->kernels, frame, local.ray, list);
-        add_spans(w, w.lanes[i], frame, list, local, {c.t0[i], shift[i], slack[i], index, context});
+        spans_in_full(w.data->kernels, frame, ray.ray, list);
+        add_spans(w, w.lanes[first + i], frame, list, ray,
+                  {c.t0[first + i], shift[i], slack[i], index, context});
     }
 }
 
-HWY_INLINE void open_leaf(Walker<8>& w, std::uint32_t context, std::uint32_t index,
+HWY_INLINE void open_leaf(Walker<kRays>& w, std::uint32_t context, std::uint32_t index,
                           std::uint32_t lanes) {
-    const Context<8>& c = w.contexts[context];
+    const Context<kRays>& c = w.contexts[context];
     const Leaf& leaf = c.solid->leaves[index];
     const Frame& frame = w.data->frames[leaf.frame];
     w.leaves += static_cast<std::uint64_t>(lane_count(lanes));
     if (frame.type == kInstanceType) {
-        Local<double> locals[8];
-        for (int i = 0; i < 8; ++i) {
+        Local<double> locals[kRays];
+        for (int i = 0; i < kRays; ++i) {
             locals[i] = localise<double>(frame, leaf, c.o[0][i], c.o[1][i], c.o[2][i], c.d[0][i],
                                          c.d[1][i], c.d[2][i], c.error[i]);
         }
@@ -357,7 +356,10 @@ HWY_INLINE void open_leaf(Walker<8>& w, std::uint32_t context, std::uint32_t ind
         return;
     }
     if (frame.in_blocks) {
-        open_block_leaf(w, context, index, frame, lanes);
+        for (int first = 0; first < kRays; first += kLanes) {
+            const std::uint32_t here = (lanes >> first) & ((1U << kLanes) - 1U);
+            if (here != 0) open_block_leaf(w, context, index, frame, first, here);
+        }
         return;
     }
     visit_kernel(w, frame, [&]<class K>(const K& kernel) {
@@ -376,7 +378,7 @@ HWY_INLINE void open_leaf(Walker<8>& w, std::uint32_t context, std::uint32_t ind
                            index, context});
             }
         } else {
-            for (int first = 0; first < 8; first += kLanes) {
+            for (int first = 0; first < kRays; first += kLanes) {
                 const std::uint32_t here = (lanes >> first) & ((1U << kLanes) - 1U);
                 if (here == 0) continue;
                 const Local<Lanes> local = localise<Lanes>(

@@ -12,7 +12,7 @@
 inline constexpr int kMostSearches = 32;
 
 /// A leaf by itself. Returns the rays that start inside it.
-HWY_INLINE std::uint32_t meet_leaf(Walker<8>& w, std::uint32_t index, int first,
+HWY_INLINE std::uint32_t meet_leaf(Walker<kRays>& w, std::uint32_t index, int first,
                                    std::uint32_t lanes, NearestInLanes& nearest) {
     std::uint32_t inside = 0;
     const bool passable = w.mode == Mode::through && is_passable(w, index);
@@ -91,15 +91,15 @@ struct ProductInLanes {
 };
 
 /// Puts the children of a node of cutters that are met on the list. `beam`: of the rays, if it can be used.
-HWY_INLINE void open_cutters(Walker<8>& w, const Beam* beam, const RaysInFloats* rays,
+HWY_INLINE void open_cutters(Walker<kRays>& w, const Beam* beam, const RaysInFloats* rays,
                              const CutterNode& at, const float* from, const float* to) {
-    const Context<8>& c = w.contexts[0];
+    const Context<kRays>& c = w.contexts[0];
     const CompiledSolid& solid = *c.solid;
     const BvhNode& node = solid.nodes[at.ref];
     ++w.boxes;
     // Deep in the tree rays go their own ways: one of them is tested against all boxes at once.
     const bool single = (at.lanes & (at.lanes - 1)) == 0;
-    std::uint32_t children = kAllLanes;
+    std::uint32_t children = kAllChildren;
     if (single) {
         const int ray = __builtin_ctz(at.lanes);
         children = meet_node_alone(c, ray, from[ray], to[ray], node);
@@ -119,16 +119,16 @@ HWY_INLINE void open_cutters(Walker<8>& w, const Beam* beam, const RaysInFloats*
 
 /// Looks among the cutters of a product, in the tree with root `root`, for those that the place p.at of the rays `lanes` lies
 /// in. Returns the rays for which it went on.
-HWY_INLINE std::uint32_t search_cutters(Walker<8>& w, const Beam& beam, std::uint32_t root,
+HWY_INLINE std::uint32_t search_cutters(Walker<kRays>& w, const Beam& beam, std::uint32_t root,
                                         int first, std::uint32_t lanes, ProductInLanes& p,
                                         NearestInLanes& nearest) {
-    const F f;
-    const Context<8>& c = w.contexts[0];
+    const R f;
+    const Context<kRays>& c = w.contexts[0];
     const Lanes start = nearest.start;
     // Boxes are met where the place may be; the rays that do not count, nowhere.
-    alignas(64) float from[8];
-    alignas(64) float to[8];
-    for (int i = 0; i < 8; ++i) {
+    alignas(64) float from[kRays];
+    alignas(64) float to[kRays];
+    for (int i = 0; i < kRays; ++i) {
         from[i] = std::numeric_limits<float>::infinity();
         to[i] = -from[i];
     }
@@ -136,11 +136,11 @@ HWY_INLINE std::uint32_t search_cutters(Walker<8>& w, const Beam& beam, std::uin
     const auto slack = [](Lanes t) { return Lanes(0x1p-20) * lane_abs(t); };
     store_floats(lane_select(here, p.at.lo - slack(p.at.lo), Lanes(kInfinity)), from + first);
     store_floats(lane_select(here, p.at.hi + slack(p.at.hi), Lanes(-kInfinity)), to + first);
-    RaysInFloats rays[8 / kFloats];
-    for (int v = 0; v < 8 / kFloats; ++v) {
-        rays[v] = rays_in_floats(c, v * kFloats);
-        rays[v].from = hn::Load(f, from + v * kFloats);
-        rays[v].to = hn::Load(f, to + v * kFloats);
+    RaysInFloats rays[kRays / kRayFloats];
+    for (int v = 0; v < kRays / kRayFloats; ++v) {
+        rays[v] = rays_in_floats(c, v * kRayFloats);
+        rays[v].from = hn::Load(f, from + v * kRayFloats);
+        rays[v].to = hn::Load(f, to + v * kRayFloats);
     }
     Beam near_by = beam;
     near_by.from = least_of(from, lanes << first);
@@ -195,8 +195,8 @@ struct MembersInLanes {
 
 /// A product, as far as it lies in one span of each leaf of its core, those with the numbers `choice`. Returns the rays
 /// that start inside it.
-HWY_INLINE std::uint32_t meet_core(Walker<8>& w, const Beam& beam, std::uint32_t cutters, int first,
-                                   Mask here, const MembersInLanes& members,
+HWY_INLINE std::uint32_t meet_core(Walker<kRays>& w, const Beam& beam, std::uint32_t cutters,
+                                   int first, Mask here, const MembersInLanes& members,
                                    const int (&choice)[kMostInUnit], NearestInLanes& nearest) {
     const Lanes start = nearest.start;
     ProductInLanes p;
@@ -286,8 +286,9 @@ HWY_INLINE std::uint32_t meet_core(Walker<8>& w, const Beam& beam, std::uint32_t
 }
 
 /// A product, in its unit's place. Returns the rays that start inside it.
-HWY_INLINE std::uint32_t meet_product(Walker<8>& w, const Beam& beam, std::uint32_t index, int size,
-                                      int first, std::uint32_t lanes, NearestInLanes& nearest) {
+HWY_INLINE std::uint32_t meet_product(Walker<kRays>& w, const Beam& beam, std::uint32_t index,
+                                      int size, int first, std::uint32_t lanes,
+                                      NearestInLanes& nearest) {
     const CompiledSolid& solid = *w.contexts[0].solid;
     const Lanes start = nearest.start;
     Mask here = mask_of(lanes);
@@ -338,9 +339,9 @@ HWY_INLINE std::uint32_t meet_product(Walker<8>& w, const Beam& beam, std::uint3
 }
 
 /// Walks the tree below `root`, or to one leaf that stands apart, for all active rays; the answers are in w.nearest.
-HWY_INLINE void walk_nearest(Walker<8>& w, const NearBox& root) {
+HWY_INLINE void walk_nearest(Walker<kRays>& w, const NearBox& root) {
     Nearest& n = w.nearest;
-    Context<8>& c = w.contexts[0];
+    Context<kRays>& c = w.contexts[0];
     Beam beam{};
     if (root.count() == 0) beam = beam_of(c, w.active);
     w.near_boxes.count = 0;
@@ -349,7 +350,7 @@ HWY_INLINE void walk_nearest(Walker<8>& w, const NearBox& root) {
         const NearBox box = w.near_boxes.last();
         --w.near_boxes.count;
         std::uint32_t open = 0;  // rays that may still find something nearer
-        for (int i = 0; i < 8; i += kLanes) open |= bits(load(n.hi + i) >= Lanes(box.t)) << i;
+        for (int i = 0; i < kRays; i += kLanes) open |= bits(load(n.hi + i) >= Lanes(box.t)) << i;
         open &= w.active & ~n.deferred;
         if (open == 0) return;
         const std::uint32_t lanes = box.lanes() & open;
@@ -360,7 +361,7 @@ HWY_INLINE void walk_nearest(Walker<8>& w, const NearBox& root) {
             continue;
         }
         bool changed = false;
-        for (int first = 0; first < 8; first += kLanes) {
+        for (int first = 0; first < kRays; first += kLanes) {
             const std::uint32_t here = (lanes >> first) & ((1U << kLanes) - 1U);
             if (here == 0) continue;
             NearestInLanes nearest = load(n, first);
@@ -386,8 +387,8 @@ HWY_INLINE void walk_nearest(Walker<8>& w, const NearBox& root) {
             changed |= nearest.changed;
         }
         w.leaves += count * static_cast<std::uint64_t>(lane_count(lanes));
-        if (!changed) continue;
-        for (int i = 0; i < 8; i += kLanes) {
+        if (!changed || w.near_boxes.count == 0) continue;
+        for (int i = 0; i < kRays; i += kLanes) {
             const Lanes hi = lane_min(load(n.hi + i), load(n.limit + i));
             store_floats(hi + Lanes(0x1p-20) * lane_abs(hi), c.to + i);
         }
@@ -396,11 +397,11 @@ HWY_INLINE void walk_nearest(Walker<8>& w, const NearBox& root) {
 }
 
 /// Whether all active rays are known to start in leaf `index`, and to leave it.
-HWY_INLINE bool all_leave(const Walker<8>& w, std::uint32_t index) {
+HWY_INLINE bool all_leave(const Walker<kRays>& w, std::uint32_t index) {
     const Nearest& n = w.nearest;
     const Lanes leaf(static_cast<double>(index));
     std::uint32_t leave = 0;
-    for (int i = 0; i < 8; i += kLanes) {
+    for (int i = 0; i < kRays; i += kLanes) {
         const Mask out = load(n.leaf + i) == leaf + Lanes(kLeaving);
         leave |= bits(lane_and(out, load(n.inside + i) == leaf)) << i;
     }
@@ -408,9 +409,9 @@ HWY_INLINE bool all_leave(const Walker<8>& w, std::uint32_t index) {
 }
 
 /// Decides for which rays the answer is certain.
-HWY_INLINE void settle_nearest(Walker<8>& w) {
+HWY_INLINE void settle_nearest(Walker<kRays>& w) {
     Nearest& n = w.nearest;
-    for (int i = 0; i < 8; i += kLanes) {
+    for (int i = 0; i < kRays; i += kLanes) {
         const Lanes lo = load(n.lo + i);
         const Lanes hi = load(n.hi + i);
         const Lanes trouble = load(n.trouble_lo + i);

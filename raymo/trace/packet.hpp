@@ -1,33 +1,21 @@
-// Eight rays side by side, and what they meet: the form in which the walk and the shading compute.
+// Rays side by side, and what they meet: the form in which the walk and the shading compute.
 #pragma once
 
 #include <cstdint>
 
+#include "raymo/trace/lane_bits.hpp"
 #include "raymo/trace/tracer.hpp"
 
 namespace raymo::trace {
 
-/// Lanes of a packet, one bit each.
-using LaneBits = std::uint32_t;
-inline constexpr LaneBits kAllLanes = 0xffU;
-
-[[nodiscard]] constexpr LaneBits first_lanes(std::size_t count) { return (1U << count) - 1U; }
-[[nodiscard]] inline int lowest_lane(LaneBits lanes) { return __builtin_ctz(lanes); }
-[[nodiscard]] constexpr int lane_count(LaneBits lanes) {
-    // Not every machine that this is compiled for counts bits in one instruction.
-    lanes = (lanes & 0x55U) + (lanes >> 1U & 0x55U);
-    lanes = (lanes & 0x33U) + (lanes >> 2U & 0x33U);
-    return static_cast<int>((lanes & 0xfU) + (lanes >> 4U));
-}
-
 /// Answers, as in Hit.
 struct alignas(64) HitPacket {
-    double t[8], error[8];
-    double point[3][8], point_error[8];
-    double normal[3][8];
-    std::uint32_t part[8];
-    csg::MaterialId material[8], medium_before[8], medium_after[8];
-    std::uint32_t leaf[8], instance[8], face[8];
+    double t[kRays], error[kRays];
+    double point[3][kRays], point_error[kRays];
+    double normal[3][kRays];
+    std::uint32_t part[kRays];
+    csg::MaterialId material[kRays], medium_before[kRays], medium_after[kRays];
+    std::uint32_t leaf[kRays], instance[kRays], face[kRays];
     LaneBits entering = 0;
 
     void set(int lane, const Hit& hit) {
@@ -75,11 +63,10 @@ struct PassagePacket {
 
 /// Questions, as in RayQuery.
 struct alignas(64) RayPacket {
-    static constexpr int kSize = 8;
-    double o[3][kSize];
-    double d[3][kSize];
-    double t_max[kSize];
-    double start_error[kSize];
+    double o[3][kRays];
+    double d[3][kRays];
+    double t_max[kRays];
+    double start_error[kRays];
     LaneBits on_surface = 0;
     /// A leaf that all rays in use start in, as far as their past tells (SurfaceId::leaf); a hint, which saves time.
     std::uint32_t within = SurfaceId::kNone;

@@ -8,7 +8,7 @@
 // list may be mistaken for the next one, or for the start. Other rays are left over.
 
 /// Whether a leaf is a part by itself that lets light through.
-HWY_INLINE bool is_passable(const Walker<8>& w, std::uint32_t index) {
+HWY_INLINE bool is_passable(const Walker<kRays>& w, std::uint32_t index) {
     const Leaf& leaf = w.contexts[0].solid->leaves[index];
     return leaf.alone && !w.is_opaque(w.data->looks[leaf.look].material);
 }
@@ -55,7 +55,7 @@ HWY_INLINE void put_on_list(const EndInLanes& end, std::uint32_t lanes, int firs
 }
 
 /// A span of a leaf that can be passed, for the rays `there`. Returns those that start inside it.
-HWY_INLINE std::uint32_t pass_span(Walker<8>& w, std::uint32_t index, int first, Mask there,
+HWY_INLINE std::uint32_t pass_span(Walker<kRays>& w, std::uint32_t index, int first, Mask there,
                                    const EndInLanes& enter, const EndInLanes& exit,
                                    NearestInLanes& nearest) {
     const Mask about =
@@ -77,7 +77,7 @@ HWY_INLINE std::uint32_t pass_span(Walker<8>& w, std::uint32_t index, int first,
 }
 
 /// Decides for which rays the list is certain, after settle_nearest; the others are left over.
-HWY_INLINE void settle_passages(Walker<8>& w, PassagePacket& out) {
+HWY_INLINE void settle_passages(Walker<kRays>& w, PassagePacket& out) {
     Nearest& n = w.nearest;
     const Passages& p = w.passages;
     // Of what is no part by itself it matters what it shows.
@@ -90,7 +90,7 @@ HWY_INLINE void settle_passages(Walker<8>& w, PassagePacket& out) {
     n.deferred |= p.overflown & ~n.found;
     out.count = 2 * p.count;
     for (int k = 0; k < out.count; ++k) out.lanes[k] = 0;
-    for (int first = 0; first < 8; first += kLanes) {
+    for (int first = 0; first < kRays; first += kLanes) {
         const Lanes none(-1.0);
         const Lanes limit = load(n.limit + first);
         Lanes before = load(n.start_hi + first);
@@ -117,13 +117,13 @@ HWY_INLINE void settle_passages(Walker<8>& w, PassagePacket& out) {
 }
 
 /// Puts row `k` of what is passed in the place of what is nearest.
-HWY_INLINE void show_passage(Walker<8>& w, int k) {
+HWY_INLINE void show_passage(Walker<kRays>& w, int k) {
     Nearest& n = w.nearest;
     const Passages::Span& span = w.passages.spans[k / 2];
     const bool enters = k % 2 == 0;
     const Passages::End& end = enters ? span.enter : span.exit;
     const auto leaf = static_cast<double>(span.leaf);
-    for (int i = 0; i < 8; i += kLanes) {
+    for (int i = 0; i < kRays; i += kLanes) {
         store(load(end.t + i), n.t + i);
         store(load(end.error + i), n.error + i);
         store(load(end.face + i), n.face + i);

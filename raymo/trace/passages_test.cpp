@@ -52,17 +52,19 @@ std::vector<Hit> crossed(Tracer& tracer, RayQuery query, bool& blocked) {
     return out;
 }
 
+constexpr int kHalf = kRays / 2;  ///< of a packet
+
 struct Seen {
     int left_over = 0, blocked = 0, free = 0, crossings = 0;
 };
 void compare(Tracer& tracer, const std::vector<RayQuery>& queries, Seen& seen) {
     RayPacket rays;
-    for (std::size_t i = 0; i < 8; ++i) rays.set(static_cast<int>(i), queries[i]);
+    for (std::size_t i = 0; i < kRays; ++i) rays.set(static_cast<int>(i), queries[i]);
     PassagePacket passed;
     LaneBits blocked = 0;
     const LaneBits left_over = tracer.passages(rays, kAllLanes, passed, blocked);
     CHECK((left_over & blocked) == 0);
-    for (std::size_t i = 0; i < 8; ++i) {
+    for (std::size_t i = 0; i < kRays; ++i) {
         const auto has = [i](LaneBits lanes) { return (lanes >> i & 1U) != 0; };
         if (has(left_over)) {
             ++seen.left_over;
@@ -114,7 +116,7 @@ TEST_CASE("passages: what light passes on its way is what is met from surface to
     std::uniform_real_distribution<double> uniform(-1, 1);
     Seen seen;
     for (int k = 0; k < 3000; ++k) {
-        std::vector<RayQuery> queries(8);
+        std::vector<RayQuery> queries(kRays);
         const Vec3 eye{4 * uniform(random), -8, 2 * uniform(random)};
         for (RayQuery& q : queries) {
             q.ray = {eye, {0.4 * uniform(random), 1, 0.2 * uniform(random)}};
@@ -133,7 +135,7 @@ TEST_CASE("passages: what light passes on its way is what is met from surface to
     CHECK(seen.free > 5000);
     CHECK(seen.crossings > 10000);
     // Only where the union of glass is met.
-    CHECK(seen.left_over < 8000);
+    CHECK(seen.left_over < 1000 * kRays);
 }
 
 TEST_CASE("passages: parts of glass that touch or overlap are left over or right") {
@@ -147,16 +149,16 @@ TEST_CASE("passages: parts of glass that touch or overlap are left over or right
         Tracer tracer(*compiled);
         Seen seen;
         for (int k = -20; k <= 20; ++k) {
-            std::vector<RayQuery> queries(8);
-            for (std::size_t i = 0; i < 8; ++i) {
+            std::vector<RayQuery> queries(kRays);
+            for (std::size_t i = 0; i < kRays; ++i) {
                 queries[i].ray = {{0.1 * k, -3, 0}, {0.01 * static_cast<double>(i), 1, 0.1}};
                 queries[i].t_max = i % 2 == 0 ? 8.0 : 20.0;
             }
             compare(tracer, queries, seen);
         }
-        CHECK(seen.blocked == 41 * 4);
-        if (gap == 1e-9) CHECK(seen.free == 41 * 4);
-        CHECK(seen.free + seen.left_over == 41 * 4);
+        CHECK(seen.blocked == 41 * kHalf);
+        if (gap == 1e-9) CHECK(seen.free == 41 * kHalf);
+        CHECK(seen.free + seen.left_over == 41 * kHalf);
     }
 }
 
@@ -167,15 +169,15 @@ TEST_CASE("passages: more than a packet holds is left over") {
     REQUIRE(compiled.has_value());
     Tracer tracer(*compiled);
     Seen seen;
-    std::vector<RayQuery> queries(8);
-    for (std::size_t i = 0; i < 8; ++i) {
+    std::vector<RayQuery> queries(kRays);
+    for (std::size_t i = 0; i < kRays; ++i) {
         queries[i].ray = {{0, -1, 0}, {0, 1, 0.01 * static_cast<double>(i)}};
-        queries[i].t_max = i < 4 ? 5.25 : 30.0;  // at the end within the fifth
+        queries[i].t_max = i < kHalf ? 5.25 : 30.0;  // at the end within the fifth
     }
     compare(tracer, queries, seen);
-    CHECK(seen.left_over == 4);
-    CHECK(seen.free == 4);
-    CHECK(seen.crossings == 4 * 9);
+    CHECK(seen.left_over == kHalf);
+    CHECK(seen.free == kHalf);
+    CHECK(seen.crossings == kHalf * 9);
 }
 
 }  // namespace raymo::trace

@@ -1,5 +1,5 @@
 // A packet of rays brought into the frame of the base solid; included by walk.cpp once per instruction set, inside
-// HWY_NAMESPACE. Does for eight rays what base_ray (base_ray.hpp) does for one, with equal bits.
+// HWY_NAMESPACE. Does for many rays what base_ray (base_ray.hpp) does for one, with equal bits.
 
 struct SumInLanes {
     Lanes sum, rest;
@@ -42,18 +42,18 @@ HWY_INLINE Lanes binary_inverses(Lanes size) {
 }
 
 /// Rays from further away than Dekker's product can bear are left to base_ray.
-HWY_INLINE void prepare_packet(Walker<8>& w, const RayPacket& rays) {
-    Context<8>& c = w.contexts[0];
+HWY_INLINE void prepare_packet(Walker<kRays>& w, const RayPacket& rays) {
+    Context<kRays>& c = w.contexts[0];
     const CompiledSolid& base = *c.solid;
     Nearest& n = w.nearest;
     std::uint32_t very_far = 0;
     n.on_surface = false;
     const Lanes scale(base.scale);
     const int some = __builtin_ctz(w.active);
-    for (int first = 0; first < 8; first += kLanes) {
+    for (int first = 0; first < kRays; first += kLanes) {
         // Lanes that are not in use do as one that is.
         const Mask used = mask_of(w.active >> first);
-        const auto read = [&](const double(&row)[8]) {
+        const auto read = [&](const double(&row)[kRays]) {
             return lane_select(used, load(row + first), Lanes(row[some]));
         };
         const Lanes given[3] = {read(rays.d[0]), read(rays.d[1]), read(rays.d[2])};
@@ -134,7 +134,7 @@ HWY_INLINE void prepare_packet(Walker<8>& w, const RayPacket& rays) {
 /// Nothing found yet.
 HWY_INLINE void reset_nearest(Nearest& n) {
     const Lanes none(kInfinity);
-    for (int i = 0; i < 8; i += kLanes) {
+    for (int i = 0; i < kRays; i += kLanes) {
         for (double* p : {n.lo, n.t, n.hi, n.second_lo, n.trouble_lo}) store(none, p + i);
         store(Lanes(-kInfinity), n.start_hi + i);
         for (double* p : {n.error, n.face}) store(Lanes(0.0), p + i);

@@ -41,18 +41,16 @@ struct SpansFound {
 /// The same of a kernel that answers blocks.
 struct SpansInBlock {
     const solids::SpanBlock& spans;
-    int first;
     Lanes shift, slack;
 
     [[nodiscard]] HWY_INLINE int count() const { return spans.count; }
-    [[nodiscard]] HWY_INLINE Mask valid(int k) const { return mask_of(spans.valid[k] >> first); }
+    [[nodiscard]] HWY_INLINE Mask valid(int k) const { return mask_of(spans.valid[k]); }
     [[nodiscard]] HWY_INLINE EndInLanes enter(int k) const { return end(spans.enter, k); }
     [[nodiscard]] HWY_INLINE EndInLanes exit(int k) const { return end(spans.exit, k); }
 
 private:
     [[nodiscard]] HWY_INLINE EndInLanes end(const solids::SpanBlock::End& e, int k) const {
-        return end_at(shift, slack, load(e.s[k] + first), load(e.error[k] + first),
-                      load(e.face[k] + first));
+        return end_at(shift, slack, load(e.s[k]), load(e.error[k]), load(e.face[k]));
     }
 };
 
@@ -60,9 +58,9 @@ private:
 /// or where there is trouble: the ray runs in the boundary, or was left over. What is told of other rays has no meaning.
 /// `past`: what lies before does not count; a span that begins there begins anywhere in it (LocalRay::from).
 template <class Use>
-HWY_INLINE void ask_leaf(const Walker<8>& w, std::uint32_t index, int first, std::uint32_t asked,
-                         Lanes past, Use&& use) {
-    const Context<8>& c = w.contexts[0];
+HWY_INLINE void ask_leaf(const Walker<kRays>& w, std::uint32_t index, int first,
+                         std::uint32_t asked, Lanes past, Use&& use) {
+    const Context<kRays>& c = w.contexts[0];
     const Leaf& leaf = c.solid->leaves[index];
     const Frame& frame = w.data->frames[leaf.frame];
     Local<Lanes> local = localise<Lanes>(
@@ -77,12 +75,12 @@ HWY_INLINE void ask_leaf(const Walker<8>& w, std::uint32_t index, int first, std
     if (frame.in_blocks) {
         local.ray.from = end_of_past(past, Lanes(0.0), local);
         solids::RayBlock block;
-        store(local.ray, block, first);
+        store(local.ray, block, 0);
         solids::SpanBlock found;
-        block_spans(w.data->kernels, frame, block, asked << first, found);
+        block_spans(w.data->kernels, frame, block, asked, found);
         if (found.count == 0 && found.left_over == 0) return;
-        const Mask trouble = mask_of(found.left_over >> first);
-        use(SpansInBlock{found, first, local.shift, slack}, trouble,
+        const Mask trouble = mask_of(found.left_over);
+        use(SpansInBlock{found, local.shift, slack}, trouble,
             lane_any(trouble) ? left_over_from() : Lanes(kInfinity));
         return;
     }
@@ -111,7 +109,7 @@ HWY_INLINE void ask_leaf(const Walker<8>& w, std::uint32_t index, int first, std
 }
 
 /// The same, kept. Returns how many spans a ray has at most.
-HWY_INLINE int spans_of(const Walker<8>& w, std::uint32_t index, int first, std::uint32_t asked,
+HWY_INLINE int spans_of(const Walker<kRays>& w, std::uint32_t index, int first, std::uint32_t asked,
                         Lanes past, SpanInLanes (&spans)[kMostSpansInLanes], Mask& trouble,
                         Lanes& trouble_lo) {
     int count = 0;

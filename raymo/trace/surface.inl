@@ -39,7 +39,8 @@ struct Surface {
 };
 template <class R>
 RAYMO_INLINE Surface<R> surface_at(const CompiledSolid& base, Triple<R> o, Triple<R> d,
-                                   Triple<R> normal, R s, R error, R shift, R t_per_s, R step) {
+                                   Triple<R> normal, R s, R error, R shift, R t_per_s,
+                                   const R* step = nullptr) {
     const R unit_roundoff = R(kUnitRoundoff);
     const R two = R(2.0);
     const auto size = [](Triple<R> v) {
@@ -47,9 +48,13 @@ RAYMO_INLINE Surface<R> surface_at(const CompiledSolid& base, Triple<R> o, Tripl
     };
     const R inverse = R(1.0 / base.scale);  // a power of two
     const R facing = lane_abs(normal.x * d.x + normal.y * d.y + normal.z * d.z);
-    // A ray that was moved aside by `step` meets the surface that much to the side.
-    const R aside =
-        lane_select(step > R(0.0), lane_min(step / lane_max(facing, R(1e-300)), two), R(0.0));
+    // A ray that was moved aside by a step meets the surface that much to the side.
+    R aside(0.0);
+    R off(0.0);
+    if (step != nullptr) {
+        off = *step;
+        aside = lane_select(off > R(0.0), lane_min(off / lane_max(facing, R(1e-300)), two), aside);
+    }
     Surface<R> out;
     out.t = (s + shift) * t_per_s;
     out.error = (error + aside + two * unit_roundoff * lane_abs(shift)) * t_per_s +
@@ -59,7 +64,7 @@ RAYMO_INLINE Surface<R> surface_at(const CompiledSolid& base, Triple<R> o, Tripl
     out.z = R(base.centre.z) + (o.z + d.z * s) * inverse;
     const Triple<R> point{out.x, out.y, out.z};
     out.point_error =
-        (error * facing + step + R(4.0) * unit_roundoff * (size(o) + lane_abs(s))) * inverse +
+        (error * facing + off + R(4.0) * unit_roundoff * (size(o) + lane_abs(s))) * inverse +
         two * unit_roundoff * (size(point) + R(max_norm(base.centre)));
     return out;
 }

@@ -26,7 +26,7 @@ Solid turned(const Solid& s, Vec3 axis, double degrees) {
 }
 RayPacket packed(const std::vector<RayQuery>& queries) {
     RayPacket rays;
-    for (std::size_t i = 0; i < 8; ++i) rays.set(static_cast<int>(i), queries[i]);
+    for (std::size_t i = 0; i < kRays; ++i) rays.set(static_cast<int>(i), queries[i]);
     return rays;
 }
 Solid join(Solid a, Solid b) { return csg::boolean(Op::unite, {std::move(a), std::move(b)}); }
@@ -186,7 +186,7 @@ TEST_CASE("trace: packets and single rays give the same bits") {
     Tracer tracer(*compiled);
     int hits = 0;
     for (int k = 0; k < 2000; ++k) {
-        std::vector<RayQuery> queries(8);
+        std::vector<RayQuery> queries(kRays);
         const Vec3 eye{-20, uniform(random) * 10, uniform(random) * 10};
         const Vec3 aim{10, uniform(random) * 10, uniform(random) * 10};
         for (RayQuery& q : queries) {
@@ -196,7 +196,7 @@ TEST_CASE("trace: packets and single rays give the same bits") {
         HitPacket hits_together;
         const LaneBits all_found = tracer.first_hits(rays, kAllLanes, hits_together);
         CHECK(tracer.occluded(rays, kAllLanes) == all_found);
-        for (std::size_t i = 0; i < 8; ++i) {
+        for (std::size_t i = 0; i < kRays; ++i) {
             Hit alone;
             const bool found = (all_found >> i & 1U) != 0;
             REQUIRE(tracer.first_hit(queries[i], alone) == found);
@@ -223,15 +223,15 @@ int count_met(const Solid& solid, Vec3 from, Vec3 direction, Vec3 spread) {
     Tracer tracer(*compiled);
     int met = 0;
     for (int row = 0; row < 8; ++row) {
-        std::vector<RayQuery> queries(8);
-        for (std::size_t i = 0; i < 8; ++i) {
-            queries[i].ray = {from + spread * ((static_cast<double>(i) - 3.5) / 4.0) +
+        std::vector<RayQuery> queries(kRays);
+        for (std::size_t i = 0; i < kRays; ++i) {
+            queries[i].ray = {from + spread * ((2.0 * static_cast<double>(i) + 1.0) / kRays - 1.0) +
                                   cross(unit(direction), spread) * ((row - 3.5) / 4.0),
                               direction};
         }
         HitPacket hits;
         const LaneBits found = tracer.first_hits(packed(queries), kAllLanes, hits);
-        for (std::size_t i = 0; i < 8; ++i) {
+        for (std::size_t i = 0; i < kRays; ++i) {
             Hit alone;
             const bool hit = tracer.first_hit(queries[i], alone);
             CHECK(hit == ((found >> i & 1U) != 0));
@@ -280,7 +280,7 @@ TEST_CASE("trace: from within glass, packets and single rays give the same bits"
     std::uniform_real_distribution<double> uniform(-1, 1);
     int exits = 0;
     for (int k = 0; k < 4000; ++k) {
-        std::vector<RayQuery> queries(8);
+        std::vector<RayQuery> queries(kRays);
         for (RayQuery& q : queries) {
             RayQuery eye;
             eye.ray = {{uniform(random), -8, uniform(random)},
@@ -295,7 +295,7 @@ TEST_CASE("trace: from within glass, packets and single rays give the same bits"
         const RayPacket rays = packed(queries);
         HitPacket hits_together;
         const LaneBits all_found = tracer.first_hits(rays, kAllLanes, hits_together);
-        for (std::size_t i = 0; i < 8; ++i) {
+        for (std::size_t i = 0; i < kRays; ++i) {
             Hit alone;
             const bool found = (all_found >> i & 1U) != 0;
             REQUIRE(tracer.first_hit(queries[i], alone) == found);
@@ -329,7 +329,7 @@ TEST_CASE("trace: told which leaf they start in, packets give the same bits; tol
     std::uniform_real_distribution<double> uniform(-1, 1);
     int within = 0;
     for (int k = 0; k < 4000; ++k) {
-        std::vector<RayQuery> queries(8);
+        std::vector<RayQuery> queries(kRays);
         std::uint32_t leaf = SurfaceId::kNone;
         for (RayQuery& q : queries) {
             RayQuery eye;
@@ -413,7 +413,7 @@ TEST_CASE("trace: from within parts that overlap the media are those that all of
             CHECK(hit.medium_before == truth[i].medium_before);
             CHECK(hit.medium_after == truth[i].medium_after);
             HitPacket together;
-            REQUIRE(tracer.first_hits(packed(std::vector<RayQuery>(8, query)), kAllLanes,
+            REQUIRE(tracer.first_hits(packed(std::vector<RayQuery>(kRays, query)), kAllLanes,
                                       together) == kAllLanes);
             CHECK(together.medium_before[3] == truth[i].medium_before);
             overlaps += hit.medium_before != Hit::kAir && hit.medium_after != Hit::kAir ? 1 : 0;

@@ -32,8 +32,8 @@ struct Tracer::State {
     const CompiledScene* scene;
     const CompiledScene::Data* data;
     Walker<1> one;
-    Walker<8> eight;
-    BaseRay rays[RayPacket::kSize];
+    Walker<kRays> many;
+    BaseRay rays[kRays];
     bool simple = false;  ///< the latest packet was answered by walk_simple
     RayCounts counts;
 
@@ -66,34 +66,34 @@ struct Tracer::State {
         w.counters.reset();
         w.boxes = w.leaves = 0;
     }
-    /// Traces a packet in `eight`. Returns the rays that must be traced alone, one bit each. Where the solid is simple, which
-    /// rays met anything is in eight.nearest, and what they met in `hits` (unless that is null).
+    /// Traces a packet in `many`. Returns the rays that must be traced alone, one bit each. Where the solid is simple, which
+    /// rays met anything is in many.nearest, and what they met in `hits` (unless that is null).
     LaneBits trace_packet(const RayPacket& packet, LaneBits lanes, Mode mode, HitPacket* hits) {
         RAYMO_ASSERT(lanes != 0 && lanes <= kAllLanes);
         const CompiledSolid& base = data->solids.front();
         // Shadows of transparent parts need the materials on the way, which only events give.
         simple = base.simple && (mode == Mode::first || !data->has_transparency);
-        start(eight, mode);
-        eight.active = lanes;
+        start(many, mode);
+        many.active = lanes;
         LaneBits deferred = 0;
         if (simple) {
-            walk_simple(eight, packet, hits);
-            deferred = eight.nearest.deferred;
+            walk_simple(many, packet, hits);
+            deferred = many.nearest.deferred;
         } else {
             const int some = lowest_lane(lanes);
-            for (int i = 0; i < RayPacket::kSize; ++i) {
+            for (int i = 0; i < kRays; ++i) {
                 const RayQuery query = packet.query((lanes >> i & 1U) != 0 ? i : some);
                 rays[i] = base_ray(base, query);
-                place(eight, i, rays[i], query);
+                place(many, i, rays[i], query);
             }
-            walk(eight);
+            walk(many);
             for (LaneBits rest = lanes; rest != 0; rest &= rest - 1) {
                 const int i = lowest_lane(rest);
-                deferred |= (eight.lanes[i].stepped_aside ? 1U : 0U) << i;
+                deferred |= (many.lanes[i].stepped_aside ? 1U : 0U) << i;
             }
         }
-        counts.boxes += eight.boxes;
-        counts.leaves += eight.leaves;
+        counts.boxes += many.boxes;
+        counts.leaves += many.leaves;
         return deferred;
     }
     /// Traces one ray in `one`; the ray as traced (perhaps moved aside) is returned.
@@ -165,7 +165,7 @@ Hit Tracer::State::hit_of(const Walker<L>& w, int i, const BaseRay& ray,
     const Surface<double> surface =
         surface_at(data->solids.front(), Triple<double>{given.x, given.y, given.z},
                    Triple<double>{ray.d.x, ray.d.y, ray.d.z}, n, event.t, event.error, ray.shift,
-                   ray.t_per_s, ray.step);
+                   ray.t_per_s, &ray.step);
     Hit hit;
     hit.t = surface.t;
     hit.error = surface.error;
@@ -210,14 +210,14 @@ LaneBits Tracer::first_hits(const RayPacket& rays, LaneBits lanes, HitPacket& hi
     State& s = *state_;
     s.counts.primary += static_cast<std::uint64_t>(lane_count(lanes));
     const LaneBits deferred = s.trace_packet(rays, lanes, Mode::first, &hits);
-    LaneBits found = s.simple ? s.eight.nearest.found & ~deferred : 0;
+    LaneBits found = s.simple ? s.many.nearest.found & ~deferred : 0;
     if (!s.simple) {
         for (LaneBits rest = lanes & ~deferred; rest != 0; rest &= rest - 1) {
             const int i = lowest_lane(rest);
-            const Lane& lane = s.eight.lanes[i];
+            const Lane& lane = s.many.lanes[i];
             if (lane.crossings.empty()) continue;
             found |= 1U << i;
-            hits.set(i, s.hit_of(s.eight, i, s.rays[i], lane.crossings.front()));
+            hits.set(i, s.hit_of(s.many, i, s.rays[i], lane.crossings.front()));
         }
     }
     for (LaneBits rest = deferred; rest != 0; rest &= rest - 1) {
@@ -235,14 +235,14 @@ LaneBits Tracer::occluded(const RayPacket& rays, LaneBits lanes) {
     State& s = *state_;
     s.counts.shadow += static_cast<std::uint64_t>(lane_count(lanes));
     const LaneBits deferred = s.trace_packet(rays, lanes, Mode::any, nullptr);
-    LaneBits blocked = s.simple ? s.eight.nearest.found & ~deferred : 0;
+    LaneBits blocked = s.simple ? s.many.nearest.found & ~deferred : 0;
     for (LaneBits rest = lanes; rest != 0; rest &= rest - 1) {
         const int i = lowest_lane(rest);
         if ((deferred >> i & 1U) != 0) {
             s.trace_one(rays.query(i), Mode::any);
             blocked |= (s.one.lanes[0].blocked ? 1U : 0U) << i;
         } else if (!s.simple) {
-            blocked |= (s.eight.lanes[i].blocked ? 1U : 0U) << i;
+            blocked |= (s.many.lanes[i].blocked ? 1U : 0U) << i;
         }
     }
     return blocked;
@@ -255,14 +255,14 @@ LaneBits Tracer::passages(const RayPacket& rays, LaneBits lanes, PassagePacket& 
     blocked = 0;
     out.count = 0;
     if (!s.data->solids.front().simple) return lanes;
-    s.start(s.eight, Mode::through);
-    s.eight.active = lanes;
-    walk_through(s.eight, rays, out);
+    s.start(s.many, Mode::through);
+    s.many.active = lanes;
+    walk_through(s.many, rays, out);
     s.counts.shadow += static_cast<std::uint64_t>(lane_count(lanes));
-    s.counts.boxes += s.eight.boxes;
-    s.counts.leaves += s.eight.leaves;
-    blocked = s.eight.nearest.found;
-    return s.eight.nearest.deferred;
+    s.counts.boxes += s.many.boxes;
+    s.counts.leaves += s.many.leaves;
+    blocked = s.many.nearest.found;
+    return s.many.nearest.deferred;
 }
 
 void Tracer::spans(const Ray& ray, std::vector<std::vector<PartSpan>>& by_part) {

@@ -55,7 +55,7 @@ using solids::LocalRay;
 template <int L>
 HWY_INLINE void walk_all(Walker<L>& w) {
     w.unopened.count = 0;
-    w.unopened.put({-kInfinity, 0, 0, 0, static_cast<std::uint8_t>(w.active)});
+    w.unopened.put({-kInfinity, 0, 0, 0, static_cast<std::uint16_t>(w.active)});
     while (w.unopened.count > 0) {
         const Unopened box = w.unopened.last();
         for (std::uint32_t rest = w.active; rest != 0; rest &= rest - 1) {
@@ -85,10 +85,11 @@ HWY_INLINE void walk_all(Walker<L>& w) {
     }
 }
 
-void walk1(Walker<1>& w) { walk_all(w); }
-void walk8(Walker<8>& w) { walk_all(w); }
+void walk_ray(Walker<1>& w) { walk_all(w); }
+void walk_packet(Walker<kRays>& w) { walk_all(w); }
 /// In mode through `passed` is what the rays pass; otherwise `hits`, unless null, what they meet.
-void walk_simple8(Walker<8>& w, const RayPacket& rays, HitPacket* hits, PassagePacket* passed) {
+void walk_simple_packet(Walker<kRays>& w, const RayPacket& rays, HitPacket* hits,
+                        PassagePacket* passed) {
     const CompiledSolid& solid = *w.contexts[0].solid;
     NearBox root(-kInfinity, solid.units, 0, w.active);
     const bool is_within =
@@ -122,17 +123,17 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace raymo::trace {
 
-HWY_EXPORT(walk1);
-HWY_EXPORT(walk8);
-HWY_EXPORT(walk_simple8);
+HWY_EXPORT(walk_ray);
+HWY_EXPORT(walk_packet);
+HWY_EXPORT(walk_simple_packet);
 
-void walk(Walker<1>& walker) { HWY_DYNAMIC_DISPATCH(walk1)(walker); }
-void walk(Walker<8>& walker) { HWY_DYNAMIC_DISPATCH(walk8)(walker); }
-void walk_simple(Walker<8>& walker, const RayPacket& rays, HitPacket* hits) {
-    HWY_DYNAMIC_DISPATCH(walk_simple8)(walker, rays, hits, nullptr);
+void walk(Walker<1>& walker) { HWY_DYNAMIC_DISPATCH(walk_ray)(walker); }
+void walk(Walker<kRays>& walker) { HWY_DYNAMIC_DISPATCH(walk_packet)(walker); }
+void walk_simple(Walker<kRays>& walker, const RayPacket& rays, HitPacket* hits) {
+    HWY_DYNAMIC_DISPATCH(walk_simple_packet)(walker, rays, hits, nullptr);
 }
-void walk_through(Walker<8>& walker, const RayPacket& rays, PassagePacket& out) {
-    HWY_DYNAMIC_DISPATCH(walk_simple8)(walker, rays, nullptr, &out);
+void walk_through(Walker<kRays>& walker, const RayPacket& rays, PassagePacket& out) {
+    HWY_DYNAMIC_DISPATCH(walk_simple_packet)(walker, rays, nullptr, &out);
 }
 
 }  // namespace raymo::trace

@@ -341,6 +341,6 @@ void Walker<L>::settle(int index, std::size_t end) {
 }
 
 template struct Walker<1>;
-template struct Walker<8>;
+template struct Walker<kRays>;
 
 }  // namespace raymo::trace

@@ -202,8 +202,8 @@ struct Unopened {
     double t;
     std::uint32_t ref;
     std::uint32_t context;
-    std::uint8_t count;  ///< leaves; 0: a node
-    std::uint8_t lanes;  ///< bit i: ray i meets the box
+    std::uint8_t count;   ///< leaves; 0: a node
+    std::uint16_t lanes;  ///< bit i: ray i meets the box
 };
 
 /// The same in the walk of a simple solid. Two words, so that what has just been put on a list can be read from the
@@ -215,11 +215,11 @@ struct NearBox {
     NearBox() = default;
     NearBox(double at, std::uint32_t ref, std::uint32_t count, std::uint32_t lanes)
         : t(at),
-          packed(static_cast<std::uint64_t>(ref) << 16 | static_cast<std::uint64_t>(count) << 8 |
+          packed(static_cast<std::uint64_t>(ref) << 32 | static_cast<std::uint64_t>(count) << 16 |
                  lanes) {}
-    [[nodiscard]] std::uint32_t ref() const { return static_cast<std::uint32_t>(packed >> 16); }
-    [[nodiscard]] std::uint32_t count() const { return packed >> 8 & 0xffU; }
-    [[nodiscard]] std::uint32_t lanes() const { return packed & 0xffU; }
+    [[nodiscard]] std::uint32_t ref() const { return static_cast<std::uint32_t>(packed >> 32); }
+    [[nodiscard]] std::uint32_t count() const { return packed >> 16 & 0xffffU; }
+    [[nodiscard]] std::uint32_t lanes() const { return packed & 0xffffU; }
 };
 
 /// A box of a tree of cutters, and the rays of a packet that look for some there.
@@ -253,10 +253,10 @@ struct BoxList {
 
 /// The nearest surface of each ray of a packet, as nearest-inl.hpp finds it; what the names mean is told there.
 struct alignas(64) Nearest {
-    double lo[8], t[8], hi[8], error[8], face[8], leaf[8];
-    double inside[8];  ///< leaf that the ray starts in, or -1
-    double second_lo[8], start_hi[8], trouble_lo[8];
-    double start[8], limit[8], shift[8], t_per_s[8];
+    double lo[kRays], t[kRays], hi[kRays], error[kRays], face[kRays], leaf[kRays];
+    double inside[kRays];  ///< leaf that the ray starts in, or -1
+    double second_lo[kRays], start_hi[kRays], trouble_lo[kRays];
+    double start[kRays], limit[kRays], shift[kRays], t_per_s[kRays];
     std::uint32_t found;
     std::uint32_t deferred;
     bool on_surface;  ///< some ray starts on a surface
@@ -266,7 +266,7 @@ struct alignas(64) Nearest {
 struct Passages {
     static constexpr int kMost = PassagePacket::kMost / 2;
     struct alignas(64) End {
-        double lo[8], hi[8], t[8], error[8], face[8];
+        double lo[kRays], hi[kRays], t[kRays], error[kRays], face[kRays];
         LaneBits lanes;  ///< rays that cross it
     };
     struct Span {
@@ -335,6 +335,6 @@ private:
 };
 
 extern template struct Walker<1>;
-extern template struct Walker<8>;
+extern template struct Walker<kRays>;
 
 }  // namespace raymo::trace

@@ -65,7 +65,7 @@ bool is_grazing(trace::Tracer& tracer, trace::RayQuery query, const trace::Hit& 
 
 void packets(std::uint64_t rays, Random& random, Tally& tally) {
     std::uint64_t moved_aside = 0;
-    constexpr std::size_t kMost = trace::RayPacket::kSize;
+    constexpr std::size_t kMost = trace::kRays;
     while (tally.rays < rays) {
         Traced traced(random.chance(0.5) ? drilled(random)
                                          : grid_tree(random, 1 + random.below(5)));
@@ -76,7 +76,8 @@ void packets(std::uint64_t rays, Random& random, Tally& tally) {
         for (int packet = 0; packet < 40; ++packet) {
             // Close together, as pixels are, or not at all.
             const std::size_t count =
-                random.chance(0.7) ? kMost : 1 + static_cast<std::size_t>(random.below(8));
+                random.chance(0.7) ? kMost
+                                   : 1 + static_cast<std::size_t>(random.below(trace::kRays));
             const AimedRay first = any_ray(random, kGridSize, 0.5);
             const bool coherent = random.chance(0.6);
             const bool from_surface = random.chance(0.4);
@@ -99,7 +100,8 @@ void packets(std::uint64_t rays, Random& random, Tally& tally) {
                 packet_of_rays.set(static_cast<int>(i), queries[std::min(i, count - 1)]);
             // Some lanes are left out, in the middle too.
             trace::LaneBits lanes = trace::first_lanes(count);
-            if (random.chance(0.3)) lanes &= static_cast<trace::LaneBits>(random.below(256));
+            if (random.chance(0.3))
+                lanes &= static_cast<trace::LaneBits>(random.below(1 << trace::kRays));
             if (lanes == 0) continue;
             trace::HitPacket together;
             const trace::LaneBits found =
