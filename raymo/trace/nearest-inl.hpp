@@ -11,45 +11,51 @@
 /// Rays that go through more overlapping cutters of one product than this are traced one by one.
 inline constexpr int kMostSearches = 32;
 
-/// A leaf by itself. Returns the rays that start inside it.
+/// Span `k` of a leaf, for the rays `there`. Returns those that start inside it.
+template <class Found>
+HWY_INLINE std::uint32_t meet_span(Walker<kRays>& w, std::uint32_t index, int first, bool passable,
+                                   Mask there, const Found& found, int k, NearestInLanes& nearest) {
+    const EndInLanes enter = found.enter(k);
+    if (passable) return pass_span(w, index, first, there, enter, found.exit(k), nearest);
+    const Mask ahead = enter.near > nearest.start;
+    const Lanes number(static_cast<double>(index));
+    nearest.offer(lane_and(there, lane_and(ahead, enter.lo <= nearest.limit)), enter, number);
+    const Mask begun = lane_and(there, lane_not(ahead));
+    if (!lane_any(begun)) return 0;
+    const EndInLanes exit = found.exit(k);
+    const Mask about = lane_and(begun, exit.hi >= nearest.start);
+    if (!lane_any(about)) return 0;
+    const Mask left = exit.near <= nearest.start;
+    nearest.pass(about, enter.hi);
+    nearest.pass(lane_and(about, left), exit.hi);
+    const std::uint32_t within = bits(lane_and(about, lane_not(left)));
+    if (within != 0 && w.contexts[0].solid->leaves[index].alone) {
+        // The part ends where its only leaf ends: that is another surface to be met.
+        nearest.offer(lane_and(mask_of(within), exit.lo <= nearest.limit), exit,
+                      number + Lanes(kLeaving));
+    }
+    return within;
+}
+
+/// A leaf by itself, for the rays from `first` on that are named. Returns the rays that start inside it; `changed`: something
+/// was learnt.
 HWY_INLINE std::uint32_t meet_leaf(Walker<kRays>& w, std::uint32_t index, int first,
-                                   std::uint32_t lanes, NearestInLanes& nearest) {
+                                   std::uint32_t lanes, bool& changed) {
     std::uint32_t inside = 0;
     const bool passable = w.mode == Mode::through && is_passable(w, index);
-    ask_leaf(w, index, first, lanes, nearest.start,
+    ask_leaf(w, index, first, lanes, load(w.nearest.start + first),
              [&](const auto& found, Mask trouble, Lanes trouble_lo) RAYMO_INLINE_BODY {
+                 // Most leaves that are asked are missed: what is nearest is not read before.
+                 NearestInLanes nearest = load(w.nearest, first);
                  const Mask here = mask_of(lanes);
-                 nearest.changed = true;
                  nearest.doubt(lane_and(here, trouble), trouble_lo);
                  for (int k = 0; k < found.count(); ++k) {
                      const Mask there = lane_and(here, found.valid(k));
-                     if (!lane_any(there)) continue;
-                     if (passable) {
-                         inside |= pass_span(w, index, first, there, found.enter(k), found.exit(k),
-                                             nearest);
-                         continue;
-                     }
-                     const EndInLanes enter = found.enter(k);
-                     const Mask ahead = enter.near > nearest.start;
-                     const Lanes number(static_cast<double>(index));
-                     nearest.offer(lane_and(there, lane_and(ahead, enter.lo <= nearest.limit)),
-                                   enter, number);
-                     const Mask begun = lane_and(there, lane_not(ahead));
-                     if (!lane_any(begun)) continue;
-                     const EndInLanes exit = found.exit(k);
-                     const Mask about = lane_and(begun, exit.hi >= nearest.start);
-                     if (!lane_any(about)) continue;
-                     const Mask left = exit.near <= nearest.start;
-                     nearest.pass(about, enter.hi);
-                     nearest.pass(lane_and(about, left), exit.hi);
-                     const std::uint32_t within = bits(lane_and(about, lane_not(left)));
-                     if (within == 0) continue;
-                     inside |= within;
-                     if (!w.contexts[0].solid->leaves[index].alone) continue;
-                     // The part ends where its only leaf ends: that is another surface to be met.
-                     nearest.offer(lane_and(mask_of(within), exit.lo <= nearest.limit), exit,
-                                   number + Lanes(kLeaving));
+                     if (lane_any(there))
+                         inside |= meet_span(w, index, first, passable, there, found, k, nearest);
                  }
+                 store(nearest, w.nearest, first);
+                 changed = true;
              });
     return inside;
 }
@@ -292,7 +298,6 @@ HWY_INLINE std::uint32_t meet_product(Walker<kRays>& w, const Beam& beam, std::u
     const CompiledSolid& solid = *w.contexts[0].solid;
     const Lanes start = nearest.start;
     Mask here = mask_of(lanes);
-    nearest.changed = true;
     MembersInLanes members;
     Lanes past = start;  // where the core is entered, at the earliest
     for (int i = 0; i < size; ++i) {
@@ -364,14 +369,19 @@ HWY_INLINE void walk_nearest(Walker<kRays>& w, const NearBox& root) {
         for (int first = 0; first < kRays; first += kLanes) {
             const std::uint32_t here = (lanes >> first) & ((1U << kLanes) - 1U);
             if (here == 0) continue;
-            NearestInLanes nearest = load(n, first);
             for (std::uint32_t k = 0; k < count;) {
                 const std::uint32_t leaf = box.ref() + k;
                 const int size = c.solid->leaves[leaf].unit;
                 const bool is_leaf = size == 1 && c.solid->leaves[leaf].cutters == kNone;
-                const std::uint32_t inside =
-                    is_leaf ? meet_leaf(w, leaf, first, here, nearest)
-                            : meet_product(w, beam, leaf, size, first, here, nearest);
+                std::uint32_t inside = 0;
+                if (is_leaf) {
+                    inside = meet_leaf(w, leaf, first, here, changed);
+                } else {
+                    NearestInLanes nearest = load(n, first);
+                    inside = meet_product(w, beam, leaf, size, first, here, nearest);
+                    store(nearest, n, first);
+                    changed = true;
+                }
                 for (std::uint32_t rest = inside << first; rest != 0; rest &= rest - 1) {
                     // Inside one part that is a single leaf is simple enough.
                     const int i = __builtin_ctz(rest);
@@ -383,8 +393,6 @@ HWY_INLINE void walk_nearest(Walker<kRays>& w, const NearBox& root) {
                 }
                 k += static_cast<std::uint32_t>(size);
             }
-            if (nearest.changed) store(nearest, n, first);
-            changed |= nearest.changed;
         }
         w.leaves += count * static_cast<std::uint64_t>(lane_count(lanes));
         if (!changed || w.near_boxes.count == 0) continue;

@@ -130,7 +130,6 @@ HWY_INLINE int spans_of(const Walker<kRays>& w, std::uint32_t index, int first, 
 struct NearestInLanes {
     Lanes lo, t, error, face, leaf, second_lo, start_hi, trouble_lo;
     Lanes start, limit;
-    bool changed;  ///< since it was loaded
 
     HWY_INLINE void offer(Mask there, const EndInLanes& end, Lanes by) {
         // Cores that overlap show the same face of a cutter that they share.
@@ -165,7 +164,6 @@ HWY_INLINE NearestInLanes load(const Nearest& n, int first) {
     out.trouble_lo = load(n.trouble_lo + first);
     out.start = load(n.start + first);
     out.limit = load(n.limit + first);
-    out.changed = false;
     return out;
 }
 HWY_INLINE void store(const NearestInLanes& l, Nearest& n, int first) {
