@@ -17,10 +17,25 @@ using Kind = FormulaStep::Kind;
 constexpr std::uint32_t kMostCost = 2000;
 constexpr int kMostNesting = 8;
 
-bool is_arithmetic(Operator op) {
-    return op == Operator::add || op == Operator::subtract || op == Operator::multiply ||
-           op == Operator::divide || op == Operator::modulo;
+/// The step for an operator whose right side is in hand. The steps with a number and with a place of the frame follow it.
+std::optional<Kind> arithmetic_step(Operator op) {
+    switch (op) {
+        case Operator::add:
+            return Kind::add;
+        case Operator::subtract:
+            return Kind::subtract;
+        case Operator::multiply:
+            return Kind::multiply;
+        case Operator::divide:
+            return Kind::divide;
+        case Operator::modulo:
+            return Kind::modulo;
+        default:
+            return {};
+    }
 }
+Kind with_number(Kind step) { return static_cast<Kind>(static_cast<int>(step) + 1); }
+Kind with_local(Kind step) { return static_cast<Kind>(static_cast<int>(step) + 2); }
 
 class Maker {
 public:
@@ -72,7 +87,7 @@ private:
         draft.formula.locals = static_cast<std::uint32_t>(draft.formula.inputs.size());
         const auto operations =
             std::count_if(draft.formula.steps.begin(), draft.formula.steps.end(),
-                          [](const FormulaStep& s) { return s.kind >= Kind::negate; });
+                          [](const FormulaStep& s) { return s.kind > Kind::keep; });
         if (operations < 2 && draft.formula.nesting == 0) return false;
         const std::optional<std::uint32_t> index = finish(draft);
         if (!index) return false;
@@ -128,7 +143,7 @@ private:
             if (name.kind != NodeKind::binding || name.place != Place::local || name.flag)
                 return false;
             if (!write(draft, ast_.child(statement, 1))) return false;
-            put(draft, {Kind::keep, Operator::none, name.slot}, -1);
+            put(draft, {Kind::keep, name.slot}, -1);
             draft.known[name.slot] = true;
         }
         return false;
@@ -147,7 +162,7 @@ private:
         const Node& n = ast_[id];
         switch (n.kind) {
             case NodeKind::number:
-                put(draft, {Kind::number, Operator::none, 0, n.number}, 1);
+                put(draft, {Kind::number, 0, n.number}, 1);
                 return true;
             case NodeKind::name:
                 return write_name(draft, n);
@@ -173,15 +188,15 @@ private:
 
     /// What is on top, `op` the expression.
     bool apply(Draft& draft, Operator op, NodeId right) {
-        if (!is_arithmetic(op) || !write(draft, right)) return false;
+        const std::optional<Kind> step = arithmetic_step(op);
+        if (!step || !write(draft, right)) return false;
         FormulaStep& last = draft.formula.steps.back();
         if (last.kind != Kind::number && last.kind != Kind::local) {
-            put(draft, {Kind::arithmetic, op}, -1);
+            put(draft, {*step}, -1);
             return true;
         }
         // In one step with the operand.
-        last.kind = last.kind == Kind::number ? Kind::with_number : Kind::with_local;
-        last.op = op;
+        last.kind = last.kind == Kind::number ? with_number(*step) : with_local(*step);
         --draft.stack;
         return true;
     }
@@ -189,7 +204,7 @@ private:
     bool write_name(Draft& draft, const Node& n) {
         if (n.place == Place::local && draft.is_function) {
             if (n.slot >= draft.known.size() || !draft.known[n.slot]) return false;
-            put(draft, {Kind::local, Operator::none, n.slot}, 1);
+            put(draft, {Kind::local, n.slot}, 1);
             return true;
         }
         if (n.place == Place::local) {
@@ -200,17 +215,17 @@ private:
                 if (inputs.size() == kFormulaRoom / 4) return false;
                 inputs.push_back(n.slot);
             }
-            put(draft, {Kind::local, Operator::none, index}, 1);
+            put(draft, {Kind::local, index}, 1);
             return true;
         }
         if (n.place == Place::global) {
-            put(draft, {Kind::global, Operator::none, n.slot}, 1);
+            put(draft, {Kind::global, n.slot}, 1);
             return true;
         }
         if (n.place != Place::builtin) return false;
         const Builtin& b = builtins()[n.slot];
         if (!b.is_constant || b.is_axis) return false;
-        put(draft, {Kind::number, Operator::none, 0, b.constant}, 1);
+        put(draft, {Kind::number, 0, b.constant}, 1);
         return true;
     }
 
@@ -236,8 +251,8 @@ private:
         const Formula& called = program_.formulas[*callee];
         draft.formula.cost += called.cost;
         draft.formula.nesting = std::max(draft.formula.nesting, called.nesting + 1);
-        draft.most_room = std::max(draft.most_room, draft.stack - count + called.room);
-        put(draft, {Kind::call, Operator::none, *callee, static_cast<double>(name.slot)},
+        draft.most_room = std::max(draft.most_room, draft.stack - count + called.room + 1);
+        put(draft, {Kind::call, *callee, static_cast<double>(name.slot)},
             1 - static_cast<int>(count));
         return true;
     }
@@ -247,14 +262,6 @@ private:
     std::vector<Function> functions_;
 };
 
-/// Makes `x` what `x op y` is.
-bool apply(Operator op, double& x, double y) {
-    double result = 0.0;
-    if (!quick_arithmetic(op, x, y, result)) return false;
-    x = result;
-    return true;
-}
-
 }  // namespace
 
 void make_formulas(Program& program) { Maker(program).run(); }
@@ -262,47 +269,89 @@ void make_formulas(Program& program) { Maker(program).run(); }
 bool compute(std::span<const Formula> formulas, const Formula& formula,
              std::span<const Value> globals, double* frame) {
     double* top = frame + formula.locals;
+    double x =
+        0.0;  // in hand, so that a step need not wait for the memory that the one before wrote
     for (const FormulaStep& step : formula.steps) {
         switch (step.kind) {
             case Kind::number:
-                *top++ = step.number;
+                *top++ = x;
+                x = step.number;
                 break;
             case Kind::local:
-                *top++ = frame[step.index];
+                *top++ = x;
+                x = frame[step.index];
                 break;
             case Kind::global: {
                 const Value& value = globals[step.index];
                 if (!value.is(Tag::number)) return false;
-                *top++ = value.number();
+                *top++ = x;
+                x = value.number();
                 break;
             }
             case Kind::keep:
-                frame[step.index] = *--top;
-                break;
-            case Kind::negate:
-                top[-1] = -top[-1];
-                break;
-            case Kind::arithmetic:
-                --top;
-                if (!apply(step.op, top[-1], *top)) return false;
-                break;
-            case Kind::with_number:
-                if (!apply(step.op, top[-1], step.number)) return false;
-                break;
-            case Kind::with_local:
-                if (!apply(step.op, top[-1], frame[step.index])) return false;
+                frame[step.index] = x;
+                x = *--top;
                 break;
             case Kind::call: {
                 if (!globals[static_cast<std::size_t>(step.number)].is(Tag::function)) return false;
                 const Formula& called = formulas[step.index];
+                *top++ = x;
                 top -= called.parameters;
                 if (!compute(formulas, called, globals, top)) return false;
-                ++top;
+                x = *top;
                 break;
             }
+            case Kind::negate:
+                x = -x;
+                break;
+            case Kind::add:
+                if (!quick_arithmetic(Operator::add, *--top, x, x)) return false;
+                break;
+            case Kind::add_number:
+                if (!quick_arithmetic(Operator::add, x, step.number, x)) return false;
+                break;
+            case Kind::add_local:
+                if (!quick_arithmetic(Operator::add, x, frame[step.index], x)) return false;
+                break;
+            case Kind::subtract:
+                if (!quick_arithmetic(Operator::subtract, *--top, x, x)) return false;
+                break;
+            case Kind::subtract_number:
+                if (!quick_arithmetic(Operator::subtract, x, step.number, x)) return false;
+                break;
+            case Kind::subtract_local:
+                if (!quick_arithmetic(Operator::subtract, x, frame[step.index], x)) return false;
+                break;
+            case Kind::multiply:
+                if (!quick_arithmetic(Operator::multiply, *--top, x, x)) return false;
+                break;
+            case Kind::multiply_number:
+                if (!quick_arithmetic(Operator::multiply, x, step.number, x)) return false;
+                break;
+            case Kind::multiply_local:
+                if (!quick_arithmetic(Operator::multiply, x, frame[step.index], x)) return false;
+                break;
+            case Kind::divide:
+                if (!quick_arithmetic(Operator::divide, *--top, x, x)) return false;
+                break;
+            case Kind::divide_number:
+                if (!quick_arithmetic(Operator::divide, x, step.number, x)) return false;
+                break;
+            case Kind::divide_local:
+                if (!quick_arithmetic(Operator::divide, x, frame[step.index], x)) return false;
+                break;
+            case Kind::modulo:
+                if (!quick_arithmetic(Operator::modulo, *--top, x, x)) return false;
+                break;
+            case Kind::modulo_number:
+                if (!quick_arithmetic(Operator::modulo, x, step.number, x)) return false;
+                break;
+            case Kind::modulo_local:
+                if (!quick_arithmetic(Operator::modulo, x, frame[step.index], x)) return false;
+                break;
         }
     }
-    frame[0] = top[-1];
+    frame[0] = x;
     return true;
 }
 

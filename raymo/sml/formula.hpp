@@ -18,20 +18,33 @@ namespace raymo::sml {
 class Value;
 struct Program;
 
+/// What a step does to the number in hand, which is the top of the stack. What is below it is in memory.
 struct FormulaStep {
     enum class Kind : std::uint8_t {
-        number,
-        local,        ///< index: place in the frame
-        global,       ///< index: of the table of globals
-        keep,         ///< takes a number off the stack into place `index` of the frame
-        negate,       ///< the number on top
-        arithmetic,   ///< op, on the two on top
-        with_number,  ///< the same on the number on top and `number`
-        with_local,   ///< or place `index` of the frame
+        number,  ///< puts what is in hand on the stack, and takes `number`
+        local,   ///< or place `index` of the frame
+        global,  ///< or the global with this index
+        keep,    ///< puts it into place `index` of the frame, and takes the next from the stack
         call,  ///< index: of the formula; its arguments are on top; `number`: of the global that must be a function
+        negate,
+        // The number on the stack and that in hand; that in hand and `number`; or and place `index` of the frame.
+        add,
+        add_number,
+        add_local,
+        subtract,
+        subtract_number,
+        subtract_local,
+        multiply,
+        multiply_number,
+        multiply_local,
+        divide,
+        divide_number,
+        divide_local,
+        modulo,
+        modulo_number,
+        modulo_local,
     };
     Kind kind;
-    Operator op = Operator::none;
     std::uint32_t index = 0;
     double number = 0.0;
 };
