@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <queue>
+#include <span>
 #include <string_view>
 #include <unordered_set>
 
@@ -189,25 +190,25 @@ Aabb first_leaf(const csg::Solid& solid) {
 }
 
 /// True when some leaf is a part of the solid as it is, through unions, maps and paint only: every
-/// primitive has inner points. Cost: each shared node once.
+/// primitive has inner points. Cost: each shared Boolean once, up to the first such leaf.
 bool holds_whole_leaf(const csg::Solid& solid) {
-    std::vector<const csg::Node*> open{&solid.node()};
+    std::vector<std::span<const csg::Solid>> open{{&solid, 1}};  // operands to be looked at
     std::unordered_set<const csg::Node*> seen;
     while (!open.empty()) {
-        const csg::Node* node = open.back();
-        open.pop_back();
-        if (node->kind == csg::NodeKind::leaf) return true;
-        if (node->kind == csg::NodeKind::transform) {
-            open.push_back(&csg::as_transform(*node).child.node());
-        } else if (node->kind == csg::NodeKind::paint) {
-            open.push_back(&csg::as_paint(*node).child.node());
-        } else {
-            const std::vector<csg::Solid>& operands = csg::as_boolean(*node).operands;
-            if (node->op != csg::Op::unite && operands.size() > 1) continue;
-            for (const csg::Solid& s : operands) {
-                if (seen.insert(&s.node()).second) open.push_back(&s.node());
-            }
+        if (open.back().empty()) {
+            open.pop_back();
+            continue;
         }
+        const csg::Node* node = &open.back().front().node();
+        open.back() = open.back().subspan(1);
+        while (node->kind == csg::NodeKind::transform || node->kind == csg::NodeKind::paint) {
+            node = node->kind == csg::NodeKind::paint ? &csg::as_paint(*node).child.node()
+                                                      : &csg::as_transform(*node).child.node();
+        }
+        if (node->kind == csg::NodeKind::leaf) return true;
+        const std::vector<csg::Solid>& operands = csg::as_boolean(*node).operands;
+        if (node->op != csg::Op::unite && operands.size() > 1) continue;
+        if (seen.insert(node).second) open.emplace_back(operands);
     }
     return false;
 }
