@@ -58,6 +58,18 @@ Affine about(const Affine& map, Vec3 point) {
     return translation(point) * map * translation(-point);
 }
 
+/// By these angles about x, then y, then z.
+Affine turned(Vec3 angles) {
+    Affine map;
+    for (int axis = 2; axis >= 0; --axis) {
+        if (angles[axis] == 0.0) continue;
+        Vec3 direction;
+        direction[axis] = 1.0;
+        map = map * rotation(direction, angles[axis]);
+    }
+    return map;
+}
+
 bool move(Call& call, Value& out) {
     Vec3 by;
     unsigned given = 0;
@@ -101,8 +113,7 @@ bool rotate(Call& call, Value& out) {
         } else if (!components(call, 2, angles, given)) {
             return false;
         }
-        map = rotation({0, 0, 1}, angles.z) * rotation({0, 1, 0}, angles.y) *
-              rotation({1, 0, 0}, angles.x);
+        map = turned(angles);
     }
     if (call.has(7)) {
         Vec3 centre;
