@@ -16,6 +16,7 @@
 
 #include "raymo/core/assert.hpp"
 #include "raymo/trace/blocks.hpp"
+#include "raymo/trace/lookahead.hpp"
 #include "raymo/trace/placement.hpp"
 #include "raymo/trace/units.hpp"
 
@@ -90,6 +91,7 @@ Result<std::uint32_t> Flattener::compile(std::span<const csg::Solid> parts, int 
 
 Result<void> Flattener::expand(Work& work, std::span<const csg::Solid> parts, int depth) {
     std::vector<Visit> stack;
+    Lookahead lookahead;
     std::uint32_t steps = 0;
 
     // Goes down from `at` through transformations and paint to a leaf, an instance or a boolean.
@@ -158,6 +160,7 @@ Result<void> Flattener::expand(Work& work, std::span<const csg::Solid> parts, in
             if ((++steps & 0xffffU) == 0 && progress_ != nullptr && progress_->cancelled()) {
                 return fail(ErrorCode::cancelled, "interrupted");
             }
+            lookahead.step(boolean.operands, top.next);
             const bool subtracted = boolean.op == csg::Op::difference && top.next > 0;
             const csg::Solid& operand = boolean.operands[top.next++];
             if (auto done = descend({&operand, 0, top.place, top.material, top.item, subtracted});
