@@ -29,6 +29,11 @@ double binary_size(Vec3 v) {
     return std::bit_cast<double>(std::bit_cast<std::uint64_t>(size) & kExponent);
 }
 
+/// v / power, for a power of two: mostly without dividing, which gives the same.
+Vec3 divided(Vec3 v, double power) {
+    return power >= std::numeric_limits<double>::min() ? v * (1.0 / power) : v / power;
+}
+
 }  // namespace
 
 Mat3 inverse(const Mat3& m) {
@@ -37,16 +42,16 @@ Mat3 inverse(const Mat3& m) {
     Mat3 s;
     for (std::size_t i = 0; i < 3; ++i) {
         scale[i] = binary_size(m.row[i]);
-        s.row[i] = m.row[i] / scale[i];
+        s.row[i] = divided(m.row[i], scale[i]);
     }
     const Vec3 c0 = cross(s.row[1], s.row[2]);
     const Vec3 c1 = cross(s.row[2], s.row[0]);
     const Vec3 c2 = cross(s.row[0], s.row[1]);
     const double det = dot(s.row[0], c0);
     // Cofactor vectors are the columns of the inverse, times det.
-    const Vec3 k0 = c0 / det / scale[0];
-    const Vec3 k1 = c1 / det / scale[1];
-    const Vec3 k2 = c2 / det / scale[2];
+    const Vec3 k0 = divided(c0 / det, scale[0]);
+    const Vec3 k1 = divided(c1 / det, scale[1]);
+    const Vec3 k2 = divided(c2 / det, scale[2]);
     return {{Vec3{k0.x, k1.x, k2.x}, Vec3{k0.y, k1.y, k2.y}, Vec3{k0.z, k1.z, k2.z}}};
 }
 
@@ -57,7 +62,7 @@ bool is_invertible(const Mat3& m) {
     for (std::size_t i = 0; i < 3; ++i) {
         const double scale = binary_size(m.row[i]);
         if (scale == 0.0) return false;
-        s.row[i] = m.row[i] / scale;
+        s.row[i] = divided(m.row[i], scale);
         is_moderate = is_moderate && scale > 0x1p-900 && scale < 0x1p900;
     }
     // The computed determinant of a matrix with entries below 2 is off by less than 32 * 2^-53 * 8.
