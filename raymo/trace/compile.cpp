@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include "raymo/trace/compiled_scene.hpp"
@@ -25,6 +26,10 @@ Result<CompiledScene> compile(const scene::Scene& scene, Progress* progress) {
     auto data = std::make_unique<CompiledScene::Data>();
     data->materials = scene.materials;
     data->default_material = scene::default_material();
+    // May have it, until the looks are known: most scenes have none, and need not ask for each leaf.
+    data->has_transparency =
+        std::any_of(data->materials.begin(), data->materials.end(),
+                    [](const scene::Material& m) { return m.transmission > 0.0; });
     std::vector<csg::Solid> parts;
     for (const scene::Part& part : scene.parts) {
         parts.push_back(part.solid);
@@ -48,9 +53,10 @@ Result<CompiledScene> compile(const scene::Scene& scene, Progress* progress) {
         solid.first_leaf = first;
         first += static_cast<std::uint32_t>(solid.leaves.size());
     }
-    for (const Look& look : data->looks) {
-        if (data->is_transparent(look.material)) data->has_transparency = true;
-    }
+    data->has_transparency =
+        data->has_transparency &&
+        std::any_of(data->looks.begin(), data->looks.end(),
+                    [&](const Look& look) { return data->is_transparent(look.material); });
     return CompiledScene(std::move(data));
 }
 

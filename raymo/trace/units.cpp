@@ -308,7 +308,8 @@ private:
         place.push_back(static_cast<std::uint32_t>(planted.size()));
         for (std::size_t i = 0; i < tree.order.size(); ++i) {
             Leaf& leaf = planted[place[i]];
-            leaf.apart = leaf.unit == 1 && data_.is_transparent(data_.looks[leaf.look].material) &&
+            leaf.apart = leaf.unit == 1 && data_.has_transparency &&
+                         data_.is_transparent(data_.looks[leaf.look].material) &&
                          stands_apart(tree, tree.order[i]);
         }
         return append(tree, [&](std::uint32_t unit) { return place[unit]; });
