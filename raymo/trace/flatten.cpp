@@ -174,23 +174,28 @@ Result<void> Flattener::expand(Work& work, std::span<const csg::Solid> parts, in
 
 namespace {
 
+using Long = long double;
+
+/// An entry of I - A B, `one` on the diagonal, of a row of A and a column of B.
+Long residual(double one, Vec3 row, Vec3 column) {
+    return one - static_cast<Long>(row.x) * column.x - static_cast<Long>(row.y) * column.y -
+           static_cast<Long>(row.z) * column.z;
+}
+
 /// The inverse, with one step of Newton's method X + X (I - A X) against the cancellation in the cofactors of maps that
 /// stretch very differently along oblique axes [Higham02 14.1].
 Mat3 refined_inverse(const Mat3& a) {
     const Mat3 x = inverse(a);
     Mat3 out;
-    for (std::size_t i = 0; i < 3; ++i) {
-        for (int j = 0; j < 3; ++j) {
-            long double sum = x.row[i][j];
-            for (int k = 0; k < 3; ++k) {
-                long double rest = k == j ? 1 : 0;  // (I - A X) at row k, column j
-                for (int l = 0; l < 3; ++l) {
-                    rest -= static_cast<long double>(a.row[static_cast<std::size_t>(k)][l]) *
-                            x.row[static_cast<std::size_t>(l)][j];
-                }
-                sum += static_cast<long double>(x.row[i][k]) * rest;
-            }
-            out.row[i][j] = static_cast<double>(sum);
+    for (int j = 0; j < 3; ++j) {
+        const Vec3 column = x.column(j);
+        const Long rest_0 = residual(j == 0 ? 1.0 : 0.0, a.row[0], column);
+        const Long rest_1 = residual(j == 1 ? 1.0 : 0.0, a.row[1], column);
+        const Long rest_2 = residual(j == 2 ? 1.0 : 0.0, a.row[2], column);
+        for (std::size_t i = 0; i < 3; ++i) {
+            const Vec3 row = x.row[i];
+            out.row[i][j] =
+                static_cast<double>(row[j] + row.x * rest_0 + row.y * rest_1 + row.z * rest_2);
         }
     }
     return out;
@@ -208,19 +213,15 @@ Frame frame_of(const Affine& map, std::uint32_t type, std::uint32_t index) {
     frame.diagonal = row[0].y == 0.0 && row[0].z == 0.0 && row[1].x == 0.0 && row[1].z == 0.0 &&
                      row[2].x == 0.0 && row[2].y == 0.0;
     // How far the map is from the true inverse, seen from the leaf: the residual I - X A, summed up by rows.
-    using Long = long double;
     constexpr Long kLong = std::numeric_limits<Long>::epsilon();
     for (std::size_t r = 0; r < 3; ++r) {
         Long sum = 0;
         for (int c = 0; c < 3; ++c) {
-            Long entry = static_cast<int>(r) == c ? 1 : 0;
-            Long size = 0;
-            for (int k = 0; k < 3; ++k) {
-                const Long product =
-                    static_cast<Long>(row[r][k]) * map.linear.row[static_cast<std::size_t>(k)][c];
-                entry -= product;
-                size += std::fabs(product);
-            }
+            const Vec3 column = map.linear.column(c);
+            const Long entry = residual(static_cast<int>(r) == c ? 1.0 : 0.0, row[r], column);
+            const Long size = std::fabs(static_cast<Long>(row[r].x) * column.x) +
+                              std::fabs(static_cast<Long>(row[r].y) * column.y) +
+                              std::fabs(static_cast<Long>(row[r].z) * column.z);
             sum += std::fabs(entry) + 4 * kLong * size;
         }
         frame.error[static_cast<int>(r)] = 2.0 * static_cast<double>(sum) + 8.0 * kUnitRoundoff;
