@@ -260,14 +260,14 @@ private:
     std::array<Bins, 3> bins_;
 };
 
+/// Without a branch, which would go either way as often.
 float round_down(double v) {
     const auto f = static_cast<float>(v);
-    return static_cast<double>(f) <= v ? f : std::nextafter(f, -kInf);
+    const auto bits = std::bit_cast<std::int32_t>(f);
+    const std::int32_t next = bits < 0 ? bits + 1 : bits - 1;  // towards -infinity; f is not +0
+    return std::bit_cast<float>(static_cast<double>(f) > v ? next : bits);
 }
-float round_up(double v) {
-    const auto f = static_cast<float>(v);
-    return static_cast<double>(f) >= v ? f : std::nextafter(f, kInf);
-}
+float round_up(double v) { return -round_down(-v); }
 
 }  // namespace
 
