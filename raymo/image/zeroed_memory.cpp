@@ -8,21 +8,54 @@
 
 namespace raymo::image {
 
-void* allocate_zeroed(std::size_t bytes) {
-    void* memory = std::calloc(bytes, 1);
 #ifdef MADV_HUGEPAGE
-    constexpr std::uintptr_t kLarge = 2U << 20U;
-    const auto start = reinterpret_cast<std::uintptr_t>(memory);
-    const std::uintptr_t first = (start + kLarge - 1) / kLarge * kLarge;
-    const std::uintptr_t last = (start + bytes) / kLarge * kLarge;
-    // Only advice: whether it is followed changes nothing but the time.
-    if (memory != nullptr && last > first) {
-        static_cast<void>(::madvise(reinterpret_cast<void*>(first), last - first, MADV_HUGEPAGE));
-    }
-#endif
-    return memory;
+namespace {
+
+constexpr std::size_t kLarge = 2U << 20U;
+
+std::size_t whole_pages(std::size_t bytes) { return (bytes + kLarge - 1) / kLarge * kLarge; }
+
+/// What malloc gives never stands there: it begins with a size.
+bool is_mapped(void* memory) { return reinterpret_cast<std::uintptr_t>(memory) % kLarge == 0; }
+
+/// Pages of their own, from the beginning of a large one on. Null: there is no room.
+void* map(std::size_t bytes) {
+    const std::size_t wanted = whole_pages(bytes);
+    const std::size_t room = wanted + kLarge;
+    if (room < bytes) return nullptr;
+    void* const found =
+        ::mmap(nullptr, room, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+    if (found == MAP_FAILED) return nullptr;
+    char* const start = static_cast<char*>(found);
+    const std::size_t before = whole_pages(reinterpret_cast<std::uintptr_t>(start)) -
+                               reinterpret_cast<std::uintptr_t>(start);
+    char* const first = start + before;
+    if (before > 0) ::munmap(start, before);
+    if (before < kLarge) ::munmap(first + wanted, kLarge - before);
+    // Only advice: whether it is followed changes nothing but the time. A small rest is left to small pages.
+    const std::size_t large = (bytes + kLarge / 2) / kLarge * kLarge;
+    static_cast<void>(::madvise(first, large, MADV_HUGEPAGE));
+    return first;
 }
 
-void free_zeroed(void* memory) { std::free(memory); }
+}  // namespace
+
+void* allocate_zeroed(std::size_t bytes) {
+    void* const memory = bytes >= kLarge ? map(bytes) : nullptr;
+    return memory != nullptr ? memory : std::calloc(bytes, 1);
+}
+
+void free_zeroed(void* memory, std::size_t bytes) {
+    if (memory != nullptr && is_mapped(memory)) {
+        ::munmap(memory, whole_pages(bytes));
+    } else {
+        std::free(memory);
+    }
+}
+#else
+void* allocate_zeroed(std::size_t bytes) { return std::calloc(bytes, 1); }
+
+void free_zeroed(void* memory, std::size_t) { std::free(memory); }
+#endif
 
 }  // namespace raymo::image

@@ -1,7 +1,8 @@
 // Memory for large arrays of numbers that start at 0.
 //
 // Fresh pages come from the system filled with zeros, one fault a page: at 12 bytes a pixel that costs as much as a
-// preview's rays. So nothing is cleared twice, and where the system can it is asked for large pages.
+// preview's rays. So nothing is cleared twice (malloc's memory may have been used, or look so: calloc clears it), and where
+// the system can it is asked for large pages.
 #pragma once
 
 #include <cstddef>
@@ -9,9 +10,9 @@
 
 namespace raymo::image {
 
-/// `bytes` > 0 of zeros, or null. To be freed with std::free.
+/// `bytes` > 0 of zeros, or null. To be freed with free_zeroed and the same number.
 [[nodiscard]] void* allocate_zeroed(std::size_t bytes);
-void free_zeroed(void* memory);
+void free_zeroed(void* memory, std::size_t bytes);
 
 /// Allocator for vectors of plain numbers that are 0 when made; elements are not written again by a constructor
 /// without value. Only for types for which all bits 0 is the value 0, and only for vectors that do not grow.
@@ -29,7 +30,7 @@ struct Zeroed {
         throw_out_of_memory(count * sizeof(T));
         return nullptr;
     }
-    void deallocate(T* memory, std::size_t) { free_zeroed(memory); }
+    void deallocate(T* memory, std::size_t count) { free_zeroed(memory, count * sizeof(T)); }
     void construct(T*) {}
     template <class... Args>
     void construct(T* place, Args&&... args) {
