@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include "raymo/sml/builtins/box.hpp"
 #include "raymo/sml/builtins/image.hpp"
@@ -60,14 +61,15 @@ Affine about(const Affine& map, Vec3 point) {
 
 /// By these angles about x, then y, then z.
 Affine turned(Vec3 angles) {
-    Affine map;
+    std::optional<Affine> map;
     for (int axis = 2; axis >= 0; --axis) {
         if (angles[axis] == 0.0) continue;
         Vec3 direction;
         direction[axis] = 1.0;
-        map = map * rotation(direction, angles[axis]);
+        const Affine turn = rotation(direction, angles[axis]);
+        map = map ? *map * turn : turn;
     }
-    return map;
+    return map.value_or(Affine{});
 }
 
 bool move(Call& call, Value& out) {
