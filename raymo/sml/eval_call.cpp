@@ -8,26 +8,15 @@
 
 namespace raymo::sml {
 
-Value* ValueStack::push(std::size_t count) {
-    if (chunks_.empty() || used_ + count > chunks_[chunk_].size) {
-        const std::size_t next = chunks_.empty() ? 0 : chunk_ + 1;
-        if (next >= chunks_.size() || chunks_[next].size < count) {
-            chunks_.resize(next);  // any further ones are empty, and too small
-            const std::size_t size = std::max(kChunk, count);
-            chunks_.push_back({std::make_unique<Value[]>(size), size});
-        }
-        chunk_ = next;
-        used_ = 0;
+void ValueStack::open_chunk(std::size_t count) {
+    const std::size_t next = chunks_.empty() ? 0 : chunk_ + 1;
+    if (next >= chunks_.size() || chunks_[next].size < count) {
+        chunks_.resize(next);  // any further ones are empty, and too small
+        const std::size_t size = std::max(kChunk, count);
+        chunks_.push_back({std::make_unique<Value[]>(size), size});
     }
-    Value* const first = chunks_[chunk_].values.get() + used_;
-    used_ += count;
-    return first;
-}
-
-void ValueStack::pop(Value* first, std::size_t count, Mark before) {
-    for (std::size_t i = 0; i < count; ++i) first[i].reset();
-    chunk_ = before.chunk;
-    used_ = before.used;
+    chunk_ = next;
+    used_ = 0;
 }
 
 bool Evaluator::too_deep(NodeId site) {

@@ -28,12 +28,24 @@ public:
     };
     [[nodiscard]] Mark mark() const { return {chunk_, used_}; }
     /// `count` missing values.
-    [[nodiscard]] Value* push(std::size_t count);
+    [[nodiscard]] Value* push(std::size_t count) {
+        if (chunk_ >= chunks_.size() || used_ + count > chunks_[chunk_].size) open_chunk(count);
+        Value* const first = chunks_[chunk_].values.get() + used_;
+        used_ += count;
+        return first;
+    }
     /// Gives back the last `count` values pushed, from `first` on.
-    void pop(Value* first, std::size_t count, Mark before);
+    void pop(Value* first, std::size_t count, Mark before) {
+        for (std::size_t i = 0; i < count; ++i) first[i].reset();
+        chunk_ = before.chunk;
+        used_ = before.used;
+    }
 
 private:
-    static constexpr std::size_t kChunk = 8192;
+    static constexpr std::size_t kChunk = 1024;
+    /// Goes on to a chunk with room for `count` values.
+    void open_chunk(std::size_t count);
+
     struct Chunk {
         std::unique_ptr<Value[]> values;
         std::size_t size = 0;
