@@ -1,6 +1,7 @@
 // Tables in which what is equal is stored once.
 #pragma once
 
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <utility>
@@ -15,6 +16,22 @@ namespace raymo {
     hash = (hash ^ (hash >> 27)) * 0x94d049bb133111ebULL;
     return hash ^ (hash >> 31);
 }
+
+/// Adds numbers up to a value to be mixed: the bits of each, times an odd factor of its own, so that the products do not wait
+/// for each other. Both zeros count as one.
+class NumberSum {
+public:
+    void add(double number) {
+        const auto bits = std::bit_cast<std::uint64_t>(number + 0.0);
+        sum_ += (bits ^ (bits >> 29)) * factor_;
+        factor_ += 0xd1b54a32d192ed02ULL;
+    }
+    [[nodiscard]] std::uint64_t value() const { return sum_; }
+
+private:
+    std::uint64_t sum_ = 0;
+    std::uint64_t factor_ = 0x9e3779b97f4a7c15ULL;
+};
 
 /// Finds the rows of a table by the hashes they were added with: open addressing, at most half full, so that a search
 /// reads one place of memory and adding a row allocates nothing.

@@ -2,7 +2,6 @@
 
 #include <fmt/core.h>
 
-#include <bit>
 #include <cmath>
 
 #include "raymo/curves/build_path.hpp"
@@ -97,11 +96,13 @@ bool Evaluator::made(meshes::Mesh mesh, NodeId site, Value& out) {
 }
 
 csg::MaterialId Evaluator::material(const scene::Material& m) {
-    std::uint64_t hash = std::hash<std::string>()(m.name);
+    NumberSum sum;
     for (const double x : {m.color.x, m.color.y, m.color.z, m.diffuse, m.specular, m.roughness,
                            m.metal, m.mirror, m.transmission, m.ior}) {
-        hash = mix(hash, std::bit_cast<std::uint64_t>(x + 0.0));  // both zeros are equal
+        sum.add(x);
     }
+    // Names go with numbers: few materials differ in nothing else.
+    const std::uint64_t hash = mix(sum.value(), m.name.size());
     const std::uint32_t known = materials_.find(
         hash, [&](std::uint32_t row) { return outcome_.scene.materials[row] == m; });
     if (known != RowIndex::kNoRow) return known;

@@ -1,25 +1,16 @@
 #include "raymo/trace/tables.hpp"
 
-#include <bit>
-
 #include "raymo/trace/lane_kinds.hpp"
 
 namespace raymo::trace {
 namespace {
 
-/// The entries of a matrix, each times an odd number of its own, so that the products do not wait for each other. Both
-/// zeros count as one.
 std::uint64_t sum_of(const Mat3& m) {
-    std::uint64_t sum = 0;
-    std::uint64_t factor = 0x9e3779b97f4a7c15ULL;
+    NumberSum sum;
     for (const Vec3& row : m.row) {
-        for (int i = 0; i < 3; ++i) {
-            const auto bits = std::bit_cast<std::uint64_t>(row[i] + 0.0);
-            sum += (bits ^ (bits >> 29)) * factor;
-            factor += 0xd1b54a32d192ed02ULL;
-        }
+        for (int i = 0; i < 3; ++i) sum.add(row[i]);
     }
-    return sum;
+    return sum.value();
 }
 
 }  // namespace
