@@ -73,7 +73,9 @@ bool guard_file(const std::string& path) {
 
 void unguard_file(const std::string& path) {
     for (Guarded& g : guarded) {
-        if (g.in_use.load() && path == g.path.data()) g.in_use.store(false);
+        if (!g.in_use.load() || path != g.path.data()) continue;
+        g.in_use.store(false);
+        return;
     }
 }
 
