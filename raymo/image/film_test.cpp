@@ -2,8 +2,10 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 using namespace raymo;
 using image::Film;
@@ -73,4 +75,16 @@ TEST_CASE("film: rows go from the top, pixels from the left") {
     CHECK(codes[6] == 255);
     CHECK(codes[9 + 1] == 255);
     CHECK(film.at(2, 0) == Vec3{1, 0, 0});
+}
+
+TEST_CASE("film: begins black, whatever its memory was used for") {
+    for (const int width : {1, 291, 292, 600, 800}) {  // below and above 2 MiB
+        for (int turn = 0; turn < 2; ++turn) {
+            Film film(width, 600);
+            CHECK(std::all_of(film.rgb.begin(), film.rgb.end(), [](float x) { return x == 0.0F; }));
+            std::fill(film.rgb.begin(), film.rgb.end(), 1.0F);
+            const Film moved = std::move(film);
+            CHECK(moved.at(width - 1, 599) == Vec3{1, 1, 1});
+        }
+    }
 }
