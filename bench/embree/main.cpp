@@ -168,7 +168,7 @@ bool read_options(int count, char** words, Options& options) {
         int value = 0;
         const auto [stop, error] = std::from_chars(text, end, value);
         if (error != std::errc() || stop != end) return false;
-        if (name == "--side" && value >= 64 && value <= 8192 && value % 4 == 0) {
+        if (name == "--side" && value >= 64 && value <= 8192 && value % 8 == 0) {
             options.side = value;
         } else if (name == "--runs" && value >= 1 && value <= 1000) {
             options.runs = value;

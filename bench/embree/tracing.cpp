@@ -82,19 +82,18 @@ double cpu_seconds() {
 Rays::Rays(const scene::Camera& camera, int side) {
     const scene::View view(camera, side, side);
     for (int a = 0; a < 3; ++a) eye[a] = static_cast<float>(camera.eye[a]);
-    for (int y = 0; y < side; y += 4) {
+    for (int y = 0; y < side; y += trace::kRays / 4) {
         for (int x = 0; x < side; x += 4) {
-            Sixteen sixteen;
             trace::RayPacket packet;
-            for (int i = 0; i < 16; ++i) {
+            for (int i = 0; i < trace::kRays; ++i) {
                 trace::RayQuery query;
                 query.ray = view.ray(x + i % 4 + 0.5, y + i / 4 + 0.5);
                 packet.set(i, query);
+                if (i % 16 == 0) sixteens.emplace_back();
                 for (int a = 0; a < 3; ++a)
-                    sixteen.d[a][i] = static_cast<float>(query.ray.direction[a]);
+                    sixteens.back().d[a][i % 16] = static_cast<float>(query.ray.direction[a]);
             }
             packets.push_back(packet);
-            sixteens.push_back(sixteen);
         }
     }
 }

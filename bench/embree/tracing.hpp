@@ -15,19 +15,19 @@ namespace raymo::bench {
 /// CPU time of this process [s].
 [[nodiscard]] double cpu_seconds();
 
-/// The primary rays of a square picture, made once for both: in packets of sixteen, 4 x 4 pixels, in double precision
-/// and rounded to single.
+/// The primary rays of a square picture, made once for both: in double precision in packets, 4 x 8 pixels, and rounded
+/// to single precision in packets of sixteen, 4 x 4.
 class Rays {
 public:
     struct alignas(64) Sixteen {
         float d[3][16];
     };
-    /// `side`: pixels each way, a multiple of 4.
+    /// `side`: pixels each way, a multiple of 8.
     Rays(const scene::Camera& camera, int side);
     [[nodiscard]] std::size_t count() const { return packets.size() * trace::kRays; }
 
     std::vector<trace::RayPacket> packets;
-    std::vector<Sixteen> sixteens;  ///< the same rays
+    std::vector<Sixteen> sixteens;  ///< the same rays, two for each packet
     float eye[3];                   ///< where all begin
 };
 

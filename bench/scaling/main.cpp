@@ -48,7 +48,7 @@ struct Measured {
     double seconds = 0.0;
 };
 
-/// One picture's primary rays, in blocks of 4 x 4.
+/// One picture's primary rays, in blocks of 4 x 8.
 Measured trace_picture(const CompiledScene& scene, const raymo::scene::View& view, int side) {
     Tracer tracer(scene);
     RayPacket rays;

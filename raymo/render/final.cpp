@@ -101,7 +101,7 @@ bool draw_final(const Sitting& s) {
         const auto pixel = [w](int x, int y) {
             return static_cast<std::size_t>(y) * w + static_cast<std::size_t>(x);
         };
-        for_each_square(
+        for_each_block(
             tile, [&](int x, int y) { sampler.add_middles(x, y, pixel(x, y), w); },
             [&](int x, int y) { sampler.add_middle(x, y, pixel(x, y)); });
         sampler.flush();

@@ -47,31 +47,31 @@ private:
     std::atomic_flag reporting_;
 };
 
-/// Pixels each way of the squares whose rays make a packet.
-inline constexpr int kSquare = 4;
-static_assert(kSquare * kSquare == trace::kRays);
+/// The blocks of pixels whose rays make a packet.
+inline constexpr int kAcross = 4;
+inline constexpr int kDown = trace::kRays / kAcross;
 
-/// Calls f(x, y) for all cells of a tile, square by square, so that those that follow each other are close.
+/// Calls f(x, y) for all cells of a tile, block by block, so that those that follow each other are close.
 template <class F>
 void for_each_cell(const Rect& tile, F&& f) {
-    for (int y = tile.y0; y < tile.y1; y += kSquare) {
-        for (int x = tile.x0; x < tile.x1; x += kSquare) {
-            for (int v = y; v < std::min(y + kSquare, tile.y1); ++v) {
-                for (int u = x; u < std::min(x + kSquare, tile.x1); ++u) f(u, v);
+    for (int y = tile.y0; y < tile.y1; y += kDown) {
+        for (int x = tile.x0; x < tile.x1; x += kAcross) {
+            for (int v = y; v < std::min(y + kDown, tile.y1); ++v) {
+                for (int u = x; u < std::min(x + kAcross, tile.x1); ++u) f(u, v);
             }
         }
     }
 }
 
-/// Calls square(x, y) for the squares that lie within a tile and whose corners those are, and pixel(x, y) for what is left of
+/// Calls block(x, y) for the blocks that lie within a tile and whose corners those are, and pixel(x, y) for what is left of
 /// it beside them; in the same order.
-template <class Square, class Pixel>
-void for_each_square(const Rect& tile, Square&& square, Pixel&& pixel) {
-    for (int y = tile.y0; y < tile.y1; y += kSquare) {
-        for (int x = tile.x0; x < tile.x1; x += kSquare) {
-            const Rect part{x, y, std::min(x + kSquare, tile.x1), std::min(y + kSquare, tile.y1)};
-            if (part.x1 - x == kSquare && part.y1 - y == kSquare) {
-                square(x, y);
+template <class Block, class Pixel>
+void for_each_block(const Rect& tile, Block&& block, Pixel&& pixel) {
+    for (int y = tile.y0; y < tile.y1; y += kDown) {
+        for (int x = tile.x0; x < tile.x1; x += kAcross) {
+            const Rect part{x, y, std::min(x + kAcross, tile.x1), std::min(y + kDown, tile.y1)};
+            if (part.x1 - x == kAcross && part.y1 - y == kDown) {
+                block(x, y);
             } else {
                 for_each_cell(part, pixel);
             }
@@ -121,12 +121,12 @@ public:
         if (shader_->stage().soft) seed(x, y);
         add(x + 0.5, y + 0.5, 0, pixel);
     }
-    /// The same for the pixels of a square with the corner (x, y); `pixel` is that of the corner, rows are `stride` apart.
+    /// The same for the pixels of a block with the corner (x, y); `pixel` is that of the corner, rows are `stride` apart.
     void add_middles(int x, int y, std::size_t pixel, std::size_t stride) {
         if (shader_->stage().soft || batch_.count % trace::kRays != 0) {
-            for (int v = 0; v < kSquare; ++v) {
+            for (int v = 0; v < kDown; ++v) {
                 const std::size_t row = pixel + static_cast<std::size_t>(v) * stride;
-                for (int u = 0; u < kSquare; ++u)
+                for (int u = 0; u < kAcross; ++u)
                     add_middle(x + u, y + v, row + static_cast<std::size_t>(u));
             }
             return;
@@ -135,8 +135,8 @@ public:
         Row& xs = x_[first / trace::kRays];
         Row& ys = y_[first / trace::kRays];
         for (std::size_t k = 0; k < trace::kRays; ++k) {
-            const std::size_t u = k % kSquare;
-            const std::size_t v = k / kSquare;
+            const std::size_t u = k % kAcross;
+            const std::size_t v = k / kAcross;
             xs.at[k] = x + (static_cast<double>(u) + 0.5);
             ys.at[k] = y + (static_cast<double>(v) + 0.5);
             pixel_[first + k] = pixel + u + v * stride;

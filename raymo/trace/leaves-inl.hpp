@@ -187,7 +187,7 @@ void open_instance(Walker<L>& w, std::uint32_t parent, std::uint32_t leaf_index,
         }
     }
     w.unopened.make_room(1);
-    w.unopened.put({nearest, 0, index, 0, static_cast<std::uint16_t>(lanes)});
+    w.unopened.put({nearest, 0, index, 0, lanes});
 }
 
 template <int L, class Visit>

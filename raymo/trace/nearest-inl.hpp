@@ -355,9 +355,10 @@ HWY_INLINE void walk_nearest(Walker<kRays>& w, const NearBox& root) {
         const NearBox box = w.near_boxes.last();
         --w.near_boxes.count;
         std::uint32_t open = 0;  // rays that may still find something nearer
-        for (int i = 0; i < kRays; i += kLanes) open |= bits(load(n.hi + i) >= Lanes(box.t)) << i;
+        const Lanes near(static_cast<double>(box.t()));
+        for (int i = 0; i < kRays; i += kLanes) open |= bits(load(n.hi + i) >= near) << i;
         open &= w.active & ~n.deferred;
-        if (open == 0) return;
+        if (open == 0) continue;
         const std::uint32_t lanes = box.lanes() & open;
         if (lanes == 0) continue;
         const std::uint32_t count = box.count();

@@ -55,7 +55,7 @@ using solids::LocalRay;
 template <int L>
 HWY_INLINE void walk_all(Walker<L>& w) {
     w.unopened.count = 0;
-    w.unopened.put({-kInfinity, 0, 0, 0, static_cast<std::uint16_t>(w.active)});
+    w.unopened.put({-kInfinity, 0, 0, 0, w.active});
     while (w.unopened.count > 0) {
         const Unopened box = w.unopened.last();
         for (std::uint32_t rest = w.active; rest != 0; rest &= rest - 1) {
@@ -91,10 +91,11 @@ void walk_packet(Walker<kRays>& w) { walk_all(w); }
 void walk_simple_packet(Walker<kRays>& w, const RayPacket& rays, HitPacket* hits,
                         PassagePacket* passed) {
     const CompiledSolid& solid = *w.contexts[0].solid;
-    NearBox root(-kInfinity, solid.units, 0, w.active);
+    constexpr float kBefore = -std::numeric_limits<float>::infinity();
+    NearBox root(kBefore, solid.units, 0, w.active);
     const bool is_within =
         hits != nullptr && rays.within < solid.leaves.size() && solid.leaves[rays.within].apart;
-    if (is_within) root = {-kInfinity, rays.within, 1, w.active};
+    if (is_within) root = {kBefore, rays.within, 1, w.active};
     for (;;) {
         prepare_packet(w, rays);
         reset_nearest(w.nearest);
@@ -102,7 +103,7 @@ void walk_simple_packet(Walker<kRays>& w, const RayPacket& rays, HitPacket* hits
         walk_nearest(w, root);
         settle_nearest(w);
         if (root.count() == 0 || all_leave(w, rays.within)) break;
-        root = {-kInfinity, solid.units, 0, w.active};
+        root = {kBefore, solid.units, 0, w.active};
     }
     if (passed != nullptr) {
         settle_passages(w, *passed);

@@ -8,6 +8,7 @@
 // unopened box may still add to it.
 #pragma once
 
+#include <bit>
 #include <cstdint>
 #include <limits>
 #include <vector>
@@ -203,23 +204,25 @@ struct Unopened {
     std::uint32_t ref;
     std::uint32_t context;
     std::uint8_t count;   ///< leaves; 0: a node
-    std::uint16_t lanes;  ///< bit i: ray i meets the box
+    std::uint32_t lanes;  ///< bit i: ray i meets the box
 };
 
 /// The same in the walk of a simple solid. Two words, so that what has just been put on a list can be read from the
 /// processor's store buffer.
 struct NearBox {
-    double t;
-    std::uint64_t packed;
+    std::uint64_t where, who;
 
     NearBox() = default;
-    NearBox(double at, std::uint32_t ref, std::uint32_t count, std::uint32_t lanes)
-        : t(at),
-          packed(static_cast<std::uint64_t>(ref) << 32 | static_cast<std::uint64_t>(count) << 16 |
-                 lanes) {}
-    [[nodiscard]] std::uint32_t ref() const { return static_cast<std::uint32_t>(packed >> 32); }
-    [[nodiscard]] std::uint32_t count() const { return packed >> 16 & 0xffffU; }
-    [[nodiscard]] std::uint32_t lanes() const { return packed & 0xffffU; }
+    NearBox(float at, std::uint32_t ref, std::uint32_t count, std::uint32_t lanes)
+        : where(static_cast<std::uint64_t>(ref) << 32 | std::bit_cast<std::uint32_t>(at)),
+          who(static_cast<std::uint64_t>(count) << 32 | lanes) {}
+    /// Where the first of the rays enters it, at the earliest.
+    [[nodiscard]] float t() const {
+        return std::bit_cast<float>(static_cast<std::uint32_t>(where));
+    }
+    [[nodiscard]] std::uint32_t ref() const { return static_cast<std::uint32_t>(where >> 32); }
+    [[nodiscard]] std::uint32_t count() const { return static_cast<std::uint32_t>(who >> 32); }
+    [[nodiscard]] std::uint32_t lanes() const { return static_cast<std::uint32_t>(who); }
 };
 
 /// A box of a tree of cutters, and the rays of a packet that look for some there.
@@ -228,6 +231,10 @@ struct CutterNode {
     std::uint32_t count;  ///< leaves; 0: a node
     std::uint32_t lanes;
 };
+
+/// How near a box is.
+[[nodiscard]] inline double entry(const Unopened& box) { return box.t; }
+[[nodiscard]] inline float entry(const NearBox& box) { return box.t(); }
 
 /// Boxes to be opened, sorted with the nearest last.
 template <class Box>
@@ -238,11 +245,11 @@ struct BoxList {
     void make_room(std::size_t more) {
         if (count + more > room.size()) room.resize(2 * room.size() + more);
     }
-    /// There must be room.
-    RAYMO_INLINE void put(const Box& box) {
+    /// Puts a box in its place among those from number `base` on. There must be room.
+    RAYMO_INLINE void put(const Box& box, std::size_t base = 0) {
         Box* list = room.data();
         std::size_t i = count++;
-        while (i > 0 && list[i - 1].t < box.t) {
+        while (i > base && entry(list[i - 1]) < entry(box)) {
             list[i] = list[i - 1];
             --i;
         }

@@ -18,6 +18,7 @@ public:
         return lo + (hi - lo) * static_cast<double>(engine_() >> 11) * 0x1p-53;
     }
     int below(int n) { return static_cast<int>(engine_() % static_cast<std::uint64_t>(n)); }
+    std::uint32_t bits() { return static_cast<std::uint32_t>(engine_() >> 32); }
     bool chance(double p) { return uniform(0, 1) < p; }
     Vec3 in_cube(double r) { return {uniform(-r, r), uniform(-r, r), uniform(-r, r)}; }
     Vec3 direction() {

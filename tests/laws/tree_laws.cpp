@@ -100,8 +100,7 @@ void packets(std::uint64_t rays, Random& random, Tally& tally) {
                 packet_of_rays.set(static_cast<int>(i), queries[std::min(i, count - 1)]);
             // Some lanes are left out, in the middle too.
             trace::LaneBits lanes = trace::first_lanes(count);
-            if (random.chance(0.3))
-                lanes &= static_cast<trace::LaneBits>(random.below(1 << trace::kRays));
+            if (random.chance(0.3)) lanes &= static_cast<trace::LaneBits>(random.bits());
             if (lanes == 0) continue;
             trace::HitPacket together;
             const trace::LaneBits found =
