@@ -186,7 +186,7 @@ int main(int count, char** words) {
     if (!read_options(count, words, options)) {
         std::fprintf(stderr,
                      "usage: raymo_embree [--side PIXELS] [--runs N] [--shape NAME]\n"
-                     "PIXELS: a multiple of 4; NAME: torus, revolution, prism or sweep\n");
+                     "PIXELS: a multiple of 8; NAME: torus, revolution, prism or sweep\n");
         return 2;
     }
     std::printf(
