@@ -15,9 +15,6 @@ constexpr std::size_t kLarge = 2U << 20U;
 
 std::size_t whole_pages(std::size_t bytes) { return (bytes + kLarge - 1) / kLarge * kLarge; }
 
-/// What malloc gives never stands there: it begins with a size.
-bool is_mapped(void* memory) { return reinterpret_cast<std::uintptr_t>(memory) % kLarge == 0; }
-
 /// Pages of their own, from the beginning of a large one on. Null: there is no room.
 void* map(std::size_t bytes) {
     const std::size_t wanted = whole_pages(bytes);
@@ -41,15 +38,14 @@ void* map(std::size_t bytes) {
 }  // namespace
 
 void* allocate_zeroed(std::size_t bytes) {
-    void* const memory = bytes >= kLarge ? map(bytes) : nullptr;
-    return memory != nullptr ? memory : std::calloc(bytes, 1);
+    return bytes >= kLarge ? map(bytes) : std::calloc(bytes, 1);
 }
 
 void free_zeroed(void* memory, std::size_t bytes) {
-    if (memory != nullptr && is_mapped(memory)) {
-        ::munmap(memory, whole_pages(bytes));
-    } else {
+    if (bytes < kLarge) {
         std::free(memory);
+    } else if (memory != nullptr) {
+        ::munmap(memory, whole_pages(bytes));
     }
 }
 #else
