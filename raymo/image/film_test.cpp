@@ -6,6 +6,9 @@
 #include <cmath>
 #include <limits>
 #include <utility>
+#include <vector>
+
+#include "raymo/image/zeroed_memory.hpp"
 
 using namespace raymo;
 using image::Film;
@@ -28,6 +31,23 @@ int expected(float x) {
 }
 
 }  // namespace
+
+TEST_CASE("zeroed memory: small blocks are given back wherever they stand") {
+    // So many that one begins where a large page does.
+    constexpr std::size_t kBytes = 12, kBlocks = std::size_t{1} << 18U,
+                          kLargePage = std::size_t{1} << 21U;
+    std::vector<void*> blocks(kBlocks);
+    int at_large_pages = 0;
+    for (void*& block : blocks) {
+        block = image::allocate_zeroed(kBytes);
+        REQUIRE(block != nullptr);
+        at_large_pages += reinterpret_cast<std::uintptr_t>(block) % kLargePage == 0 ? 1 : 0;
+    }
+    WARN(at_large_pages > 0);  // other allocators may never do that
+    for (void* block : blocks) image::free_zeroed(block, kBytes);
+    const std::vector<char> after(kBytes * kBlocks, 'a');
+    CHECK(after.back() == 'a');
+}
 
 TEST_CASE("film: every 8-bit sRGB code decodes and encodes to itself") {
     for (int c = 0; c < 256; ++c) {

@@ -15,14 +15,21 @@ constexpr std::size_t kLarge = 2U << 20U;
 
 std::size_t whole_pages(std::size_t bytes) { return (bytes + kLarge - 1) / kLarge * kLarge; }
 
-/// Pages of their own, from the beginning of a large one on. Null: there is no room.
+/// Small pages, where there is no room for more than is wanted.
+void* map_anywhere(std::size_t bytes) {
+    void* const found =
+        ::mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+    return found == MAP_FAILED ? nullptr : found;
+}
+
+/// Pages of their own, from the beginning of a large one on if there is room for it. Null: there is no room at all.
 void* map(std::size_t bytes) {
     const std::size_t wanted = whole_pages(bytes);
     const std::size_t room = wanted + kLarge;
     if (room < bytes) return nullptr;
     void* const found =
         ::mmap(nullptr, room, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
-    if (found == MAP_FAILED) return nullptr;
+    if (found == MAP_FAILED) return map_anywhere(wanted);
     char* const start = static_cast<char*>(found);
     const std::size_t before = whole_pages(reinterpret_cast<std::uintptr_t>(start)) -
                                reinterpret_cast<std::uintptr_t>(start);

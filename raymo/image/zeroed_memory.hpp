@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <new>
 
 namespace raymo::image {
@@ -27,7 +28,7 @@ struct Zeroed {
     [[nodiscard]] T* allocate(std::size_t count) {
         if (void* memory = allocate_zeroed(count * sizeof(T))) return static_cast<T*>(memory);
         // As every container does when there is no memory.
-        throw_out_of_memory(count * sizeof(T));
+        throw_out_of_memory();
         return nullptr;
     }
     void deallocate(T* memory, std::size_t count) { free_zeroed(memory, count * sizeof(T)); }
@@ -42,8 +43,10 @@ struct Zeroed {
     }
 
 private:
-    /// Fails in the way operator new does; this layer is compiled without exceptions.
-    static void throw_out_of_memory(std::size_t bytes) { ::operator delete(::operator new(bytes)); }
+    /// Fails in the way operator new does, by asking it for more than there is: this layer is compiled without exceptions.
+    static void throw_out_of_memory() {
+        ::operator delete(::operator new(std::numeric_limits<std::ptrdiff_t>::max()));
+    }
 };
 
 }  // namespace raymo::image
