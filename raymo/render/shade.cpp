@@ -23,6 +23,7 @@ namespace HWY_NAMESPACE {
 //
 #include "raymo/render/lamps.inl"
 
+using trace::end_of;
 using trace::first_lanes;
 using Colours = Triple<Lanes>;
 
@@ -111,7 +112,7 @@ void shade_surroundings_in_lanes(const Surroundings& around, const double (&view
     const Colours top = everywhere<Lanes>(around.background.top);
     spots.lit = lanes & ~spots.dark & (~spots.transparent | hits.entering);
     reflected.lanes = refracted.lanes = 0;
-    for (int first = 0; first < kRays; first += kLanes) {
+    for (int first = 0; first < end_of(lanes); first += kLanes) {
         const SurfacesInLanes surface = surfaces_at(spots, first);
         const Surface& base = *surface.base;
         const Mask tinted = mask_at(spots.tinted, first);
@@ -190,7 +191,7 @@ void shade_surroundings_in_lanes(const Surroundings& around, const double (&view
 
 LaneBits worth_tracing_in_lanes(const Onward& onward, double least) {
     LaneBits worth = 0;
-    for (int first = 0; first < kRays; first += kLanes)
+    for (int first = 0; first < end_of(onward.lanes); first += kLanes)
         worth |= bits(largest(load(onward.weight, first)) >= Lanes(least)) << first;
     return worth & onward.lanes;
 }
@@ -198,7 +199,7 @@ LaneBits worth_tracing_in_lanes(const Onward& onward, double least) {
 void shade_passage_in_lanes(const trace::HitPacket& hits, const double (&view)[3][kRays],
                             LaneBits lanes, const double (&transmission)[kRays],
                             const double (&ratio)[kRays], double (&left)[kRays]) {
-    for (int first = 0; first < kRays; first += kLanes) {
+    for (int first = 0; first < end_of(lanes); first += kLanes) {
         const Lanes cosine = lane_abs(dot(load(hits.normal, first), load(view, first)));
         const Lanes passed =
             load(transmission + first) * (Lanes(1.0) - fresnel_of(cosine, load(ratio + first)));
@@ -274,7 +275,7 @@ void shade_by_lamp_in_lanes(const Lamp& lamp, const double (&view)[3][kRays],
     gains.lanes = 0;
     shadows.on_surface = trace::kAllLanes;
     const Lanes half(0.5);
-    for (int first = 0; first < kRays; first += kLanes) {
+    for (int first = 0; first < end_of(lanes); first += kLanes) {
         const Colours point = load(hits.point, first);
         put(lit(lamp, point, load(spots.normal, first), load(view, first), load(spots.nv + first),
                 load(spots.body, first), load(spots.weight, first), least,
@@ -285,7 +286,7 @@ void shade_by_lamp_in_lanes(const Lamp& lamp, const double (&view)[3][kRays],
 }
 
 void add_gains_in_lanes(const Gains& gains, Spots& spots) {
-    for (int first = 0; first < kRays; first += kLanes) {
+    for (int first = 0; first < end_of(gains.lanes); first += kLanes) {
         const Mask there = mask_at(gains.lanes, first);
         const Colours light = load(spots.light, first);
         store(lane_select(there, light + load(gains.light, first), light), spots.light, first);
@@ -310,7 +311,7 @@ void shade_by_lamp_places_in_lanes(const Lamp& lamp, const double (&view)[3][kRa
                                   true};
     const LaneBits slow = everywhere_if(spots.slow);
     const Mask tinted = mask_of(everywhere_if(spots.tinted));
-    for (int first = 0; first < kRays; first += kLanes) {
+    for (int first = 0; first < end_of(lanes); first += kLanes) {
         put(lit(lamp, point, all(spots.normal), all(view), Lanes(spots.nv[hit]), all(spots.body),
                 all(spots.weight), least, surface, slow, tinted, load(u + first), load(v + first),
                 mask_at(lanes, first)),

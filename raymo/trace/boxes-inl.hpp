@@ -31,12 +31,22 @@ HWY_INLINE hn::Mask<Tag> float_mask(Tag tag, std::uint32_t lanes) {
 struct RaysInFloats {
     RayFloats ox, oy, oz, ix, iy, iz, from, to;
 };
-HWY_INLINE RaysInFloats rays_in_floats(const Context<kRays>& c, int first) {
+/// The vectors in which some lanes lie.
+struct PacketInFloats {
+    RaysInFloats part[kRays / kRayFloats];
+    int begin, end;
+};
+HWY_INLINE void read_rays(const Context<kRays>& c, std::uint32_t lanes, PacketInFloats& out) {
     const R f;
-    return {hn::Load(f, c.fo[0] + first),      hn::Load(f, c.fo[1] + first),
-            hn::Load(f, c.fo[2] + first),      hn::Load(f, c.inverse[0] + first),
-            hn::Load(f, c.inverse[1] + first), hn::Load(f, c.inverse[2] + first),
-            hn::Load(f, c.from + first),       hn::Load(f, c.to + first)};
+    out.begin = __builtin_ctz(lanes) / kRayFloats;
+    out.end = (end_of(lanes) + kRayFloats - 1) / kRayFloats;
+    for (int v = out.begin; v < out.end; ++v) {
+        const int first = v * kRayFloats;
+        out.part[v] = {hn::Load(f, c.fo[0] + first),      hn::Load(f, c.fo[1] + first),
+                       hn::Load(f, c.fo[2] + first),      hn::Load(f, c.inverse[0] + first),
+                       hn::Load(f, c.inverse[1] + first), hn::Load(f, c.inverse[2] + first),
+                       hn::Load(f, c.from + first),       hn::Load(f, c.to + first)};
+    }
 }
 
 /// Narrows [enter, leave] to the slab lo <= o + t / inverse <= hi.
@@ -49,11 +59,11 @@ HWY_INLINE void clip(V lo, V hi, V o, V inverse, V& enter, V& leave) {
 }
 
 /// Which rays of a packet meet child `k` of a node.
-HWY_INLINE std::uint32_t lanes_in_box(const RaysInFloats* rays, const BvhNode& node, int k) {
+HWY_INLINE std::uint32_t lanes_in_box(const PacketInFloats& rays, const BvhNode& node, int k) {
     const R f;
     std::uint32_t lanes = 0;
-    for (int v = 0; v < kRays / kRayFloats; ++v) {
-        const RaysInFloats& r = rays[v];
+    for (int v = rays.begin; v < rays.end; ++v) {
+        const RaysInFloats& r = rays.part[v];
         RayFloats enter = r.from;
         RayFloats leave = r.to;
         clip(hn::Set(f, node.lo[0][k]), hn::Set(f, node.hi[0][k]), r.ox, r.ix, enter, leave);
@@ -69,12 +79,12 @@ struct Met {
     std::uint32_t lanes;
     float near;
 };
-HWY_INLINE Met meet_box(const RaysInFloats* rays, const BvhNode& node, int k) {
+HWY_INLINE Met meet_box(const PacketInFloats& rays, const BvhNode& node, int k) {
     const R f;
     Met out{0, 0.0F};
     RayFloats least = hn::Set(f, std::numeric_limits<float>::infinity());
-    for (int v = 0; v < kRays / kRayFloats; ++v) {
-        const RaysInFloats& r = rays[v];
+    for (int v = rays.begin; v < rays.end; ++v) {
+        const RaysInFloats& r = rays.part[v];
         RayFloats enter = r.from;
         RayFloats leave = r.to;
         clip(hn::Set(f, node.lo[0][k]), hn::Set(f, node.hi[0][k]), r.ox, r.ix, enter, leave);
@@ -101,7 +111,8 @@ struct Beam {
 HWY_INLINE float least_of(const float* values, std::uint32_t lanes) {
     const R f;
     RayFloats least = hn::Set(f, std::numeric_limits<float>::infinity());
-    for (int v = 0; v < kRays; v += kRayFloats) {
+    for (int v = __builtin_ctz(lanes) / kRayFloats * kRayFloats; v < end_of(lanes);
+         v += kRayFloats) {
         const RayFloats x = hn::Load(f, values + v);
         least = hn::Min(least, hn::IfThenElse(float_mask(f, lanes >> v), x, least));
     }
@@ -110,7 +121,8 @@ HWY_INLINE float least_of(const float* values, std::uint32_t lanes) {
 HWY_INLINE float most_of(const float* values, std::uint32_t lanes) {
     const R f;
     RayFloats most = hn::Set(f, -std::numeric_limits<float>::infinity());
-    for (int v = 0; v < kRays; v += kRayFloats) {
+    for (int v = __builtin_ctz(lanes) / kRayFloats * kRayFloats; v < end_of(lanes);
+         v += kRayFloats) {
         const RayFloats x = hn::Load(f, values + v);
         most = hn::Max(most, hn::IfThenElse(float_mask(f, lanes >> v), x, most));
     }
@@ -129,8 +141,9 @@ HWY_INLINE void ends_of(const float* const (&lists)[8], std::uint32_t lanes, flo
         const auto part = [&](int v) {
             return hn::IfThenElse(float_mask(f, lanes >> v), hn::Load(f, lists[i] + v), other);
         };
-        Floats best = part(0);
-        for (int v = kFloats; v < kRays; v += kFloats) best = better(best, part(v));
+        const int begin = begin_of(lanes);
+        Floats best = part(begin);
+        for (int v = begin + kFloats; v < end_of(lanes); v += kFloats) best = better(best, part(v));
         return best;
     };
     // Two lists side by side in each block, then four, then all: every step halves what is left of each.
@@ -241,8 +254,8 @@ HWY_INLINE void open_node(Walker<kRays>& w, std::uint32_t ref, std::uint32_t lan
                           const Beam& beam) {
     const Context<kRays>& c = w.contexts[0];
     const BvhNode& node = c.solid->nodes[ref];
-    RaysInFloats rays[kRays / kRayFloats];
-    for (int v = 0; v < kRays / kRayFloats; ++v) rays[v] = rays_in_floats(c, v * kRayFloats);
+    PacketInFloats rays;
+    read_rays(c, lanes, rays);
     ++w.boxes;
     w.near_boxes.make_room(BvhNode::kWidth);
     // Children are sorted among themselves only: that opens no more nodes, and costs less, than a list that is sorted as a whole.
@@ -269,8 +282,8 @@ HWY_INLINE void open_node(Walker<kRays>& w, std::uint32_t ref, std::uint32_t lan
 HWY_INLINE void open_node(Walker<kRays>& w, const Unopened& box, std::uint32_t lanes) {
     const Context<kRays>& c = w.contexts[box.context];
     const BvhNode& node = c.solid->nodes[box.ref];
-    RaysInFloats rays[kRays / kRayFloats];
-    for (int v = 0; v < kRays / kRayFloats; ++v) rays[v] = rays_in_floats(c, v * kRayFloats);
+    PacketInFloats rays;
+    read_rays(c, lanes, rays);
     ++w.boxes;
     w.unopened.make_room(BvhNode::kWidth);
     for (int k = 0; k < BvhNode::kWidth; ++k) {

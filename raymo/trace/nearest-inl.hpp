@@ -97,7 +97,7 @@ struct ProductInLanes {
 };
 
 /// Puts the children of a node of cutters that are met on the list. `beam`: of the rays, if it can be used.
-HWY_INLINE void open_cutters(Walker<kRays>& w, const Beam* beam, const RaysInFloats* rays,
+HWY_INLINE void open_cutters(Walker<kRays>& w, const Beam* beam, const PacketInFloats& rays,
                              const CutterNode& at, const float* from, const float* to) {
     const Context<kRays>& c = w.contexts[0];
     const CompiledSolid& solid = *c.solid;
@@ -142,11 +142,11 @@ HWY_INLINE std::uint32_t search_cutters(Walker<kRays>& w, const Beam& beam, std:
     const auto slack = [](Lanes t) { return Lanes(0x1p-20) * lane_abs(t); };
     store_floats(lane_select(here, p.at.lo - slack(p.at.lo), Lanes(kInfinity)), from + first);
     store_floats(lane_select(here, p.at.hi + slack(p.at.hi), Lanes(-kInfinity)), to + first);
-    RaysInFloats rays[kRays / kRayFloats];
-    for (int v = 0; v < kRays / kRayFloats; ++v) {
-        rays[v] = rays_in_floats(c, v * kRayFloats);
-        rays[v].from = hn::Load(f, from + v * kRayFloats);
-        rays[v].to = hn::Load(f, to + v * kRayFloats);
+    PacketInFloats rays;
+    read_rays(c, lanes << first, rays);
+    for (int v = rays.begin; v < rays.end; ++v) {
+        rays.part[v].from = hn::Load(f, from + v * kRayFloats);
+        rays.part[v].to = hn::Load(f, to + v * kRayFloats);
     }
     Beam near_by = beam;
     near_by.from = least_of(from, lanes << first);
@@ -344,11 +344,11 @@ HWY_INLINE std::uint32_t meet_product(Walker<kRays>& w, const Beam& beam, std::u
 }
 
 /// Walks the tree below `root`, or to one leaf that stands apart, for all active rays; the answers are in w.nearest.
-HWY_INLINE void walk_nearest(Walker<kRays>& w, const NearBox& root) {
+HWY_INLINE void walk_together(Walker<kRays>& w, const NearBox& root, Beam beam) {
     Nearest& n = w.nearest;
     Context<kRays>& c = w.contexts[0];
-    Beam beam{};
-    if (root.count() == 0) beam = beam_of(c, w.active);
+    const int begin = begin_of(w.active);
+    const int end = end_of(w.active);
     w.near_boxes.count = 0;
     w.near_boxes.put(root);
     while (w.near_boxes.count > 0) {
@@ -356,8 +356,9 @@ HWY_INLINE void walk_nearest(Walker<kRays>& w, const NearBox& root) {
         --w.near_boxes.count;
         std::uint32_t open = 0;  // rays that may still find something nearer
         const Lanes near(static_cast<double>(box.t()));
-        for (int i = 0; i < kRays; i += kLanes) open |= bits(load(n.hi + i) >= near) << i;
+        for (int i = begin; i < end; i += kLanes) open |= bits(load(n.hi + i) >= near) << i;
         open &= w.active & ~n.deferred;
+        // Boxes further up the list may be nearer: they are not sorted as a whole.
         if (open == 0) continue;
         const std::uint32_t lanes = box.lanes() & open;
         if (lanes == 0) continue;
@@ -367,7 +368,7 @@ HWY_INLINE void walk_nearest(Walker<kRays>& w, const NearBox& root) {
             continue;
         }
         bool changed = false;
-        for (int first = 0; first < kRays; first += kLanes) {
+        for (int first = begin; first < end; first += kLanes) {
             const std::uint32_t here = (lanes >> first) & ((1U << kLanes) - 1U);
             if (here == 0) continue;
             for (std::uint32_t k = 0; k < count;) {
@@ -397,12 +398,31 @@ HWY_INLINE void walk_nearest(Walker<kRays>& w, const NearBox& root) {
         }
         w.leaves += count * static_cast<std::uint64_t>(lane_count(lanes));
         if (!changed || w.near_boxes.count == 0) continue;
-        for (int i = 0; i < kRays; i += kLanes) {
+        for (int i = begin; i < end; i += kLanes) {
             const Lanes hi = lane_min(load(n.hi + i), load(n.limit + i));
             store_floats(hi + Lanes(0x1p-20) * lane_abs(hi), c.to + i);
         }
-        beam.to = most_of(c.to, open & ~n.deferred);
+        const std::uint32_t searching = w.active & ~n.deferred;
+        if (searching == 0) return;
+        beam.to = most_of(c.to, searching);
     }
+}
+
+/// The same; rays that point into different octants have no beam, and go group by group, as far apart as they may be.
+HWY_INLINE void walk_nearest(Walker<kRays>& w, const NearBox& root) {
+    const Context<kRays>& c = w.contexts[0];
+    const std::uint32_t active = w.active;
+    Beam beam{};
+    if (root.count() == 0) beam = beam_of(c, active);
+    if (root.count() != 0 || beam.usable || end_of(active) - begin_of(active) <= kGroup) {
+        walk_together(w, root, beam);
+        return;
+    }
+    for (std::uint32_t rest = active; rest != 0; rest &= ~w.active) {
+        w.active = rest & first_lanes(kGroup) << begin_of(rest);
+        walk_together(w, root, beam_of(c, w.active));
+    }
+    w.active = active;
 }
 
 /// Whether all active rays are known to start in leaf `index`, and to leave it.
@@ -410,7 +430,7 @@ HWY_INLINE bool all_leave(const Walker<kRays>& w, std::uint32_t index) {
     const Nearest& n = w.nearest;
     const Lanes leaf(static_cast<double>(index));
     std::uint32_t leave = 0;
-    for (int i = 0; i < kRays; i += kLanes) {
+    for (int i = begin_of(w.active); i < end_of(w.active); i += kLanes) {
         const Mask out = load(n.leaf + i) == leaf + Lanes(kLeaving);
         leave |= bits(lane_and(out, load(n.inside + i) == leaf)) << i;
     }
@@ -420,7 +440,7 @@ HWY_INLINE bool all_leave(const Walker<kRays>& w, std::uint32_t index) {
 /// Decides for which rays the answer is certain.
 HWY_INLINE void settle_nearest(Walker<kRays>& w) {
     Nearest& n = w.nearest;
-    for (int i = 0; i < kRays; i += kLanes) {
+    for (int i = begin_of(w.active); i < end_of(w.active); i += kLanes) {
         const Lanes lo = load(n.lo + i);
         const Lanes hi = load(n.hi + i);
         const Lanes trouble = load(n.trouble_lo + i);

@@ -50,7 +50,7 @@ HWY_INLINE void prepare_packet(Walker<kRays>& w, const RayPacket& rays) {
     n.on_surface = false;
     const Lanes scale(base.scale);
     const int some = __builtin_ctz(w.active);
-    for (int first = 0; first < kRays; first += kLanes) {
+    for (int first = begin_of(w.active); first < end_of(w.active); first += kLanes) {
         // Lanes that are not in use do as one that is.
         const Mask used = mask_of(w.active >> first);
         const auto read = [&](const double(&row)[kRays]) {
@@ -131,10 +131,10 @@ HWY_INLINE void prepare_packet(Walker<kRays>& w, const RayPacket& rays) {
     }
 }
 
-/// Nothing found yet.
-HWY_INLINE void reset_nearest(Nearest& n) {
+/// Nothing found yet by the rays `lanes`.
+HWY_INLINE void reset_nearest(Nearest& n, std::uint32_t lanes) {
     const Lanes none(kInfinity);
-    for (int i = 0; i < kRays; i += kLanes) {
+    for (int i = begin_of(lanes); i < end_of(lanes); i += kLanes) {
         for (double* p : {n.lo, n.t, n.hi, n.second_lo, n.trouble_lo}) store(none, p + i);
         store(Lanes(-kInfinity), n.start_hi + i);
         for (double* p : {n.error, n.face}) store(Lanes(0.0), p + i);

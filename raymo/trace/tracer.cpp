@@ -81,7 +81,7 @@ struct Tracer::State {
             deferred = many.nearest.deferred;
         } else {
             const int some = lowest_lane(lanes);
-            for (int i = 0; i < kRays; ++i) {
+            for (int i = begin_of(lanes); i < (end_of(lanes) + kGroup - 1) / kGroup * kGroup; ++i) {
                 const RayQuery query = packet.query((lanes >> i & 1U) != 0 ? i : some);
                 rays[i] = base_ray(base, query);
                 place(many, i, rays[i], query);

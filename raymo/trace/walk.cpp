@@ -98,7 +98,7 @@ void walk_simple_packet(Walker<kRays>& w, const RayPacket& rays, HitPacket* hits
     if (is_within) root = {kBefore, rays.within, 1, w.active};
     for (;;) {
         prepare_packet(w, rays);
-        reset_nearest(w.nearest);
+        reset_nearest(w.nearest, w.active);
         if (passed != nullptr) reset_passages(w.passages);
         walk_nearest(w, root);
         settle_nearest(w);
