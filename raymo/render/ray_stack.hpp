@@ -14,9 +14,8 @@ namespace raymo::render {
 
 /// What the rays of a packet are part of.
 struct alignas(64) Paths {
-    std::uint32_t owner[kRays];  ///< the eye ray that each descends from
-    std::uint32_t name
-        [kRays];  ///< tells the hits of one eye ray apart: 1, and the turns taken at each surface
+    std::uint32_t owner[kRays];   ///< the eye ray that each descends from
+    std::uint32_t name[kRays];    ///< of its hits: 1, and the turns taken at each surface
     std::uint32_t depth[kRays];   ///< reflections and refractions so far
     std::uint32_t within[kRays];  ///< leaf that the ray has entered and not left
 };

@@ -22,7 +22,7 @@ HWY_INLINE void reset_passages(Passages& p) {
 /// there is none left.
 HWY_INLINE Passages::Span* place_on_list(Passages& p, std::uint32_t leaf, std::uint32_t lanes,
                                          Lanes lo, int first) {
-    // The other half of a packet may have made one.
+    // Rays of other vectors of the packet may have made one.
     for (int k = 0; k < p.count; ++k) {
         Passages::Span& span = p.spans[k];
         if (span.leaf == leaf && ((span.enter.lanes | span.exit.lanes) >> first) == 0) return &span;

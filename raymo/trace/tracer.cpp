@@ -69,7 +69,7 @@ struct Tracer::State {
     /// Traces a packet in `many`. Returns the rays that must be traced alone, one bit each. Where the solid is simple, which
     /// rays met anything is in many.nearest, and what they met in `hits` (unless that is null).
     LaneBits trace_packet(const RayPacket& packet, LaneBits lanes, Mode mode, HitPacket* hits) {
-        RAYMO_ASSERT(lanes != 0 && lanes <= kAllLanes);
+        RAYMO_ASSERT(lanes != 0);
         const CompiledSolid& base = data->solids.front();
         // Shadows of transparent parts need the materials on the way, which only events give.
         simple = base.simple && (mode == Mode::first || !data->has_transparency);
@@ -251,7 +251,7 @@ LaneBits Tracer::occluded(const RayPacket& rays, LaneBits lanes) {
 LaneBits Tracer::passages(const RayPacket& rays, LaneBits lanes, PassagePacket& out,
                           LaneBits& blocked) {
     State& s = *state_;
-    RAYMO_ASSERT(lanes != 0 && lanes <= kAllLanes);
+    RAYMO_ASSERT(lanes != 0);
     blocked = 0;
     out.count = 0;
     if (!s.data->solids.front().simple) return lanes;
