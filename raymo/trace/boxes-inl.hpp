@@ -31,17 +31,18 @@ HWY_INLINE hn::Mask<Tag> float_mask(Tag tag, std::uint32_t lanes) {
 struct RaysInFloats {
     RayFloats ox, oy, oz, ix, iy, iz, from, to;
 };
-/// The vectors in which some lanes lie.
+/// All of them. How many vectors there are is known to the compiler, so they stay in registers; those without a ray that
+/// counts are passed over.
+inline constexpr int kParts = kRays / kRayFloats;
 struct PacketInFloats {
-    RaysInFloats part[kRays / kRayFloats];
-    int begin, end;
+    RaysInFloats part[kParts];
+    bool used[kParts];
 };
 HWY_INLINE void read_rays(const Context<kRays>& c, std::uint32_t lanes, PacketInFloats& out) {
     const R f;
-    out.begin = __builtin_ctz(lanes) / kRayFloats;
-    out.end = (end_of(lanes) + kRayFloats - 1) / kRayFloats;
-    for (int v = out.begin; v < out.end; ++v) {
+    for (int v = 0; v < kParts; ++v) {
         const int first = v * kRayFloats;
+        out.used[v] = (lanes >> first & first_lanes(kRayFloats)) != 0;
         out.part[v] = {hn::Load(f, c.fo[0] + first),      hn::Load(f, c.fo[1] + first),
                        hn::Load(f, c.fo[2] + first),      hn::Load(f, c.inverse[0] + first),
                        hn::Load(f, c.inverse[1] + first), hn::Load(f, c.inverse[2] + first),
@@ -62,7 +63,8 @@ HWY_INLINE void clip(V lo, V hi, V o, V inverse, V& enter, V& leave) {
 HWY_INLINE std::uint32_t lanes_in_box(const PacketInFloats& rays, const BvhNode& node, int k) {
     const R f;
     std::uint32_t lanes = 0;
-    for (int v = rays.begin; v < rays.end; ++v) {
+    for (int v = 0; v < kParts; ++v) {
+        if (!rays.used[v]) continue;
         const RaysInFloats& r = rays.part[v];
         RayFloats enter = r.from;
         RayFloats leave = r.to;
@@ -83,7 +85,8 @@ HWY_INLINE Met meet_box(const PacketInFloats& rays, const BvhNode& node, int k) 
     const R f;
     Met out{0, 0.0F};
     RayFloats least = hn::Set(f, std::numeric_limits<float>::infinity());
-    for (int v = rays.begin; v < rays.end; ++v) {
+    for (int v = 0; v < kParts; ++v) {
+        if (!rays.used[v]) continue;
         const RaysInFloats& r = rays.part[v];
         RayFloats enter = r.from;
         RayFloats leave = r.to;
@@ -111,8 +114,7 @@ struct Beam {
 HWY_INLINE float least_of(const float* values, std::uint32_t lanes) {
     const R f;
     RayFloats least = hn::Set(f, std::numeric_limits<float>::infinity());
-    for (int v = __builtin_ctz(lanes) / kRayFloats * kRayFloats; v < end_of(lanes);
-         v += kRayFloats) {
+    for (int v = 0; v < kRays; v += kRayFloats) {
         const RayFloats x = hn::Load(f, values + v);
         least = hn::Min(least, hn::IfThenElse(float_mask(f, lanes >> v), x, least));
     }
@@ -121,8 +123,7 @@ HWY_INLINE float least_of(const float* values, std::uint32_t lanes) {
 HWY_INLINE float most_of(const float* values, std::uint32_t lanes) {
     const R f;
     RayFloats most = hn::Set(f, -std::numeric_limits<float>::infinity());
-    for (int v = __builtin_ctz(lanes) / kRayFloats * kRayFloats; v < end_of(lanes);
-         v += kRayFloats) {
+    for (int v = 0; v < kRays; v += kRayFloats) {
         const RayFloats x = hn::Load(f, values + v);
         most = hn::Max(most, hn::IfThenElse(float_mask(f, lanes >> v), x, most));
     }

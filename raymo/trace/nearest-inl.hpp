@@ -144,7 +144,7 @@ HWY_INLINE std::uint32_t search_cutters(Walker<kRays>& w, const Beam& beam, std:
     store_floats(lane_select(here, p.at.hi + slack(p.at.hi), Lanes(-kInfinity)), to + first);
     PacketInFloats rays;
     read_rays(c, lanes << first, rays);
-    for (int v = rays.begin; v < rays.end; ++v) {
+    for (int v = 0; v < kParts; ++v) {
         rays.part[v].from = hn::Load(f, from + v * kRayFloats);
         rays.part[v].to = hn::Load(f, to + v * kRayFloats);
     }
@@ -356,7 +356,7 @@ HWY_INLINE void walk_together(Walker<kRays>& w, const NearBox& root, Beam beam) 
         --w.near_boxes.count;
         std::uint32_t open = 0;  // rays that may still find something nearer
         const Lanes near(static_cast<double>(box.t()));
-        for (int i = begin; i < end; i += kLanes) open |= bits(load(n.hi + i) >= near) << i;
+        for (int i = 0; i < kRays; i += kLanes) open |= bits(load(n.hi + i) >= near) << i;
         open &= w.active & ~n.deferred;
         // Boxes further up the list may be nearer: they are not sorted as a whole.
         if (open == 0) continue;
@@ -368,7 +368,7 @@ HWY_INLINE void walk_together(Walker<kRays>& w, const NearBox& root, Beam beam) 
             continue;
         }
         bool changed = false;
-        for (int first = begin; first < end; first += kLanes) {
+        for (int first = 0; first < kRays; first += kLanes) {
             const std::uint32_t here = (lanes >> first) & ((1U << kLanes) - 1U);
             if (here == 0) continue;
             for (std::uint32_t k = 0; k < count;) {
@@ -414,13 +414,14 @@ HWY_INLINE void walk_nearest(Walker<kRays>& w, const NearBox& root) {
     const std::uint32_t active = w.active;
     Beam beam{};
     if (root.count() == 0) beam = beam_of(c, active);
-    if (root.count() != 0 || beam.usable || end_of(active) - begin_of(active) <= kGroup) {
-        walk_together(w, root, beam);
-        return;
-    }
+    const bool together = root.count() != 0 || beam.usable;
+    // walk_together stands here once only, as its text is copied to where it stands.
     for (std::uint32_t rest = active; rest != 0; rest &= ~w.active) {
-        w.active = rest & first_lanes(kGroup) << begin_of(rest);
-        walk_together(w, root, beam_of(c, w.active));
+        if (!together) {
+            w.active = rest & first_lanes(kGroup) << begin_of(rest);
+            beam = beam_of(c, w.active);
+        }
+        walk_together(w, root, beam);
     }
     w.active = active;
 }
