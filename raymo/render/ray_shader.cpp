@@ -131,14 +131,7 @@ void RayShader::look_up(LaneBits lanes) {
     for (LaneBits rest = lanes; rest != 0;) {
         // All that met one material between the same media.
         const int i = lowest_lane(rest);
-        LaneBits alike = 0;
-        for (int k = 0; k < kRays; ++k) {
-            const std::uint32_t other = (hits_.material[k] ^ hits_.material[i]) |
-                                        (hits_.medium_before[k] ^ hits_.medium_before[i]) |
-                                        (hits_.medium_after[k] ^ hits_.medium_after[i]);
-            alike |= (other == 0 ? 1U : 0U) << k;
-        }
-        alike &= rest;
+        LaneBits alike = met_alike(hits_, i) & rest;
         rest &= ~alike;
         if (alike == lanes) alike = trace::kAllLanes;
         const Surface* material = &surfaces_[hits_.material[i]];
@@ -262,48 +255,44 @@ void RayShader::dim(RayPacket& shadows, int hit) {
 /// lamp aside [Whitted80].
 void RayShader::filter(RayPacket& shadows, int hit) {
     std::fill_n(left_, kRays, 1.0);
+    csg::MaterialId medium = Hit::kAir;
+    const Surface* around = &surfaces_[medium];
     for (LaneBits rest = gains_.lanes; rest != 0; rest &= rest - 1) {
-        const auto i = static_cast<std::size_t>(lowest_lane(rest));
-        around_[i] = &surfaces_[hits_.medium_before[hit < 0 ? i : static_cast<std::size_t>(hit)]];
+        const int i = lowest_lane(rest);
+        const csg::MaterialId id = hits_.medium_before[hit < 0 ? i : hit];
+        if (id != medium) around = &surfaces_[medium = id];
+        around_[i] = around;
     }
     LaneBits blocked = 0;
     LaneBits by_steps = tracer_.passages(shadows, gains_.lanes, passages_, blocked);
     LaneBits arriving = gains_.lanes & ~(blocked | by_steps);
     alignas(64) double reached[kRays] = {};
-    alignas(64) double length[kRays] = {};
     for (int k = 0; k < passages_.count && arriving != 0; ++k) {
         const HitPacket& met = passages_.hits[k];
         const LaneBits crossing = arriving & passages_.lanes[k];
-        if (crossing == 0) continue;
-        for (LaneBits rest = crossing; rest != 0; rest &= rest - 1) {
-            const int i = lowest_lane(rest);
-            length[i] = met.t[i] - reached[i];
-            reached[i] = met.t[i];
-        }
-        arriving &= ~crossing | cross(met, shadows.d, length, crossing);
+        if (crossing != 0) arriving &= ~crossing | cross(met, shadows.d, reached, crossing);
     }
     for (LaneBits rest = arriving; rest != 0; rest &= rest - 1) {
         const int i = lowest_lane(rest);
-        const auto k = static_cast<std::size_t>(i);
-        absorb_gain(i, *around_[k], shadows.t_max[i] - reached[i]);
+        absorb_gain(i, *around_[i], shadows.t_max[i] - reached[i]);
     }
     // The others go from surface to surface.
     while (by_steps != 0) {
         const LaneBits found = tracer_.first_hits(shadows, by_steps, shadow_hits_);
         for (LaneBits rest = by_steps & ~found; rest != 0; rest &= rest - 1) {
             const int i = lowest_lane(rest);
-            absorb_gain(i, *around_[static_cast<std::size_t>(i)], shadows.t_max[i]);
+            absorb_gain(i, *around_[i], shadows.t_max[i]);
         }
         arriving |= by_steps & ~found;
-        by_steps = found == 0 ? 0 : cross(shadow_hits_, shadows.d, shadow_hits_.t, found);
+        std::fill_n(reached, kRays, 0.0);
+        by_steps = found == 0 ? 0 : cross(shadow_hits_, shadows.d, reached, found);
         if (by_steps == 0) break;
         shadows.go_on_from(shadow_hits_, by_steps);
         counts_.shadow += static_cast<std::uint64_t>(trace::lane_count(by_steps));
     }
     gains_.lanes = arriving;
-    for (LaneBits rest = arriving; rest != 0; rest &= rest - 1) {
-        const int i = lowest_lane(rest);
-        set_lane(gains_.light, i, lane_of(gains_.light, i) * left_[i]);
+    for (auto& row : gains_.light) {
+        for (int i = 0; i < kRays; ++i) row[i] *= left_[i];
     }
 }
 
@@ -312,28 +301,34 @@ void RayShader::absorb_gain(int lane, const Surface& medium, double length) {
     set_lane(gains_.light, lane, lane_of(gains_.light, lane) * transmittance(medium, length));
 }
 
-/// Takes rays to a lamp along `view` across the surfaces that they meet, after `length` each. Returns those of `lanes` that
+/// Takes rays to a lamp along `view` across the surfaces that they meet, and `reached` to there. Returns those of `lanes` that
 /// still bring light.
 LaneBits RayShader::cross(const HitPacket& met, const double (&view)[3][kRays],
-                          const double (&length)[kRays], LaneBits lanes) {
+                          double (&reached)[kRays], LaneBits lanes) {
     alignas(64) double transmission[kRays] = {};
     alignas(64) double ratio[kRays] = {};
     std::fill_n(ratio, kRays, 1.0);
     LaneBits going = lanes;
-    for (LaneBits rest = lanes; rest != 0; rest &= rest - 1) {
-        const int i = lowest_lane(rest);
-        const auto k = static_cast<std::size_t>(i);
-        const Surface& material = surfaces_[met.material[i]];
+    for (LaneBits rest = lanes; rest != 0;) {
+        const int first = lowest_lane(rest);
+        const LaneBits alike = met_alike(met, first) & rest;
+        rest &= ~alike;
+        const Surface& material = surfaces_[met.material[first]];
         if (!material.transparent) {
-            going &= ~(1U << i);
+            going &= ~alike;
             continue;
         }
-        const Surface& before = surfaces_[met.medium_before[i]];
-        absorb_gain(i, before, length[i]);
-        const double index = before.index;
-        around_[k] = &surfaces_[met.medium_after[i]];
-        ratio[i] = std::max(around_[k]->index, index) / std::min(around_[k]->index, index);
-        transmission[i] = material.transmission;
+        const Surface& before = surfaces_[met.medium_before[first]];
+        const Surface& after = surfaces_[met.medium_after[first]];
+        fill(transmission, alike, material.transmission);
+        fill(ratio, alike,
+             std::max(after.index, before.index) / std::min(after.index, before.index));
+        fill(around_, alike, &after);
+        for (LaneBits each = alike; each != 0; each &= each - 1) {
+            const int i = lowest_lane(each);
+            absorb_gain(i, before, met.t[i] - reached[i]);
+            reached[i] = met.t[i];
+        }
     }
     if (going == 0) return 0;
     shade_passage(met, view, going, transmission, ratio, left_);

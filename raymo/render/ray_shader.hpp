@@ -87,7 +87,7 @@ private:
     void filter(trace::RayPacket& shadows, int hit);
     void absorb_gain(int lane, const Surface& medium, double length);
     [[nodiscard]] LaneBits cross(const trace::HitPacket& met, const double (&view)[3][kRays],
-                                 const double (&length)[kRays], LaneBits lanes);
+                                 double (&reached)[kRays], LaneBits lanes);
 
     const Stage* stage_;
     trace::Tracer tracer_;
@@ -99,8 +99,8 @@ private:
     Gains gains_;
     trace::RayPacket shadows_;
     trace::PassagePacket passages_;
-    std::array<const Surface*, kRays> around_;  ///< what each ray to a lamp is in
-    double left_[kRays];  ///< of its light, behind the surfaces that it has passed
+    const Surface* around_[kRays];  ///< what each ray to a lamp is in
+    double left_[kRays];            ///< of its light, behind the surfaces that it has passed
     // Of the batch in hand. Images and what is seen through surfaces wait apart: rays of one kind are closer.
     RayStack images_, views_;
     const EyeBatch* eyes_ = nullptr;

@@ -71,6 +71,23 @@ void shade_background_in_lanes(const Surroundings& around, const double (&view)[
     }
 }
 
+LaneBits met_alike_in_lanes(const trace::HitPacket& hits, int lane) {
+    const hn::CappedTag<std::uint32_t, kRays> tag;
+    LaneBits alike = 0;
+    for (std::size_t first = 0; first < kRays; first += hn::Lanes(tag)) {
+        const auto same = [&](const std::uint32_t(&of)[kRays]) HWY_ATTR {
+            return hn::Eq(hn::Load(tag, of + first), hn::Set(tag, of[lane]));
+        };
+        std::uint8_t bytes[8] = {};
+        hn::StoreMaskBits(tag,
+                          hn::And(same(hits.material),
+                                  hn::And(same(hits.medium_before), same(hits.medium_after))),
+                          bytes);
+        alike |= static_cast<LaneBits>(bytes[0] | bytes[1] << 8) << first;
+    }
+    return alike;
+}
+
 /// The surfaces of some lanes, to take their numbers from.
 struct SurfacesInLanes {
     const Surface* base;
@@ -328,6 +345,7 @@ namespace raymo::render {
 
 HWY_EXPORT(eye_rays_in_lanes);
 HWY_EXPORT(shade_background_in_lanes);
+HWY_EXPORT(met_alike_in_lanes);
 HWY_EXPORT(shade_surroundings_in_lanes);
 HWY_EXPORT(worth_tracing_in_lanes);
 HWY_EXPORT(shade_passage_in_lanes);
@@ -342,6 +360,9 @@ void eye_rays(const scene::View& view, const double (&x)[kRays], const double (&
 void shade_background(const Surroundings& around, const double (&view)[3][kRays],
                       double (&light)[3][kRays]) {
     HWY_DYNAMIC_DISPATCH(shade_background_in_lanes)(around, view, light);
+}
+LaneBits met_alike(const trace::HitPacket& hits, int lane) {
+    return HWY_DYNAMIC_DISPATCH(met_alike_in_lanes)(hits, lane);
 }
 void shade_surroundings(const Surroundings& around, const double (&view)[3][kRays],
                         const trace::HitPacket& hits, LaneBits lanes, Spots& spots,

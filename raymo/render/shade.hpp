@@ -28,6 +28,9 @@ struct Surroundings {
 void shade_background(const Surroundings& around, const double (&view)[3][kRays],
                       double (&light)[3][kRays]);
 
+/// Which rays of a packet met the same material between the same media as ray `lane` did.
+[[nodiscard]] LaneBits met_alike(const trace::HitPacket& hits, int lane);
+
 /// Hits while they are shaded. Lanes beside those in use hold anything.
 struct alignas(64) Spots {
     // What shade_surroundings() wants.
