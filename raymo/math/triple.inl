@@ -47,3 +47,13 @@ template <class R>
 RAYMO_INLINE R max_norm(Triple<R> a) {
     return lane_max(lane_abs(a.x), lane_max(lane_abs(a.y), lane_abs(a.z)));
 }
+/// make_frame (math/vec.hpp) for several directions.
+template <class R>
+RAYMO_INLINE void lane_frame(const Triple<R>& along, Triple<R>& side, Triple<R>& up) {
+    const R one(1.0);
+    const R sign = lane_copysign(one, along.z);
+    const R a = R(-1.0) / (sign + along.z);
+    const R b = along.x * along.y * a;
+    side = {one + sign * along.x * along.x * a, sign * b, R(0.0) - sign * along.x};
+    up = {b, sign + along.y * along.y * a, R(0.0) - along.y};
+}

@@ -40,9 +40,9 @@ struct EightBoxes {
     }
 };
 
-/// The slabs of eight lines side by side; see Slabs.
-struct SlabLanes {
-    alignas(32) float inverse[3][8] = {}, from_first[3][8] = {}, from_last[3][8] = {};
+/// The slabs of eight lines side by side; see Slabs, and slabs-inl.hpp.
+struct alignas(32) SlabLanes {
+    float inverse[3][8], from_first[3][8], from_last[3][8], past[8];
 };
 
 /// Slabs in floats, for boxes that are larger than need be by kBoxMargin [KayKajiya86].
@@ -68,14 +68,6 @@ public:
     [[nodiscard]] unsigned met(const EightBoxes& node) const {
         static_assert(EightBoxes::kWidth == 8);
         return met(node, 0) | met(node, 4) << 4;
-    }
-    /// As line i of eight.
-    void put(SlabLanes& out, std::size_t i) const {
-        for (std::size_t a = 0; a < 3; ++a) {
-            out.inverse[a][i] = inverse_[a];
-            out.from_first[a][i] = from_first_[a];
-            out.from_last[a][i] = from_last_[a];
-        }
     }
 
 private:

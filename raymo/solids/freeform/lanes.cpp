@@ -13,8 +13,10 @@
 #include <hwy/highway.h>
 
 #include <array>
+#include <limits>
 
 #include "raymo/math/lanes.hpp"
+#include "raymo/math/tolerance.hpp"
 #include "raymo/solids/freeform/freeform.hpp"
 #include "raymo/solids/freeform/spans.hpp"
 #include "raymo/solids/ray_block.hpp"
@@ -24,23 +26,16 @@
 namespace raymo::solids {
 
 /// Eight lines, and what has been found along each.
-struct FreeformPacket {
-    FreeformLine line[8];
-    FreeformFound found[8];
-    alignas(64) double o[3][8] = {}, along[3][8] = {}, side[3][8] = {}, up[3][8] = {},
-                       error[8] = {};
+struct alignas(64) FreeformPacket {
+    double o[3][8], along[3][8], side[3][8], up[3][8], error[8];
     SlabLanes slabs;
+    FreeformFound found[8];
 
-    void set(int i, const LocalRay<double>& ray) {
-        line[i] = line_of(ray);
-        for (int a = 0; a < 3; ++a) {
-            o[a][i] = line[i].o[a];
-            along[a][i] = line[i].along[a];
-            side[a][i] = line[i].side[a];
-            up[a][i] = line[i].up[a];
-        }
-        error[i] = line[i].error;
-        Slabs(line[i].o, line[i].along, line[i].error).put(slabs, static_cast<std::size_t>(i));
+    [[nodiscard]] FreeformLine line(int i) const {
+        const auto at = [i](const double(&from)[3][8]) {
+            return Vec3{from[0][i], from[1][i], from[2][i]};
+        };
+        return {at(o), at(along), at(side), at(up), error[i]};
     }
 };
 
@@ -52,6 +47,10 @@ namespace raymo::solids {
 namespace HWY_NAMESPACE {
 #include "raymo/math/lanes-inl.hpp"
 #include "raymo/math/triple.inl"
+#include "raymo/solids/interval.inl"
+//
+#include "raymo/solids/ray_block-inl.hpp"
+#include "raymo/solids/slabs-inl.hpp"
 
 struct LanePair {
     Lanes x, y;
@@ -255,41 +254,38 @@ RAYMO_INLINE void meet_all(const FreeformSurface& surface, const FreeformLeaf& l
         for (std::uint32_t rest = meet(surface, leaf, packet, first, here); rest != 0;
              rest &= rest - 1) {
             const int i = first + __builtin_ctz(rest);
-            FreeformSearch(surface, packet.line[i], packet.found[i]).meet(leaf);
+            const FreeformLine line = packet.line(i);
+            FreeformSearch(surface, line, packet.found[i]).meet(leaf);
         }
     }
 }
 
-/// Slabs::met(), of box k, for all lines.
-RAYMO_INLINE std::uint32_t met(const SlabLanes& slabs, const EightBoxes& boxes, std::size_t k) {
-    const hn::CappedTag<float, 8> tag;
-    constexpr std::size_t kFloats = HWY_MIN(8, HWY_LANES(float));
-    std::uint32_t out = 0;
-    for (std::size_t first = 0; first < 8; first += kFloats) {
-        auto enter = hn::Zero(tag);
-        auto exit = hn::Zero(tag);
-        for (std::size_t a = 0; a < 3; ++a) {
-            const auto inverse = hn::LoadU(tag, slabs.inverse[a] + first);
-            const auto forwards = hn::Gt(inverse, hn::Zero(tag));
-            const auto lo = hn::Set(tag, boxes.lo[a][k]);
-            const auto hi = hn::Set(tag, boxes.hi[a][k]);
-            const auto near = hn::Mul(hn::Sub(hn::IfThenElse(forwards, lo, hi),
-                                              hn::LoadU(tag, slabs.from_first[a] + first)),
-                                      inverse);
-            const auto far = hn::Mul(hn::Sub(hn::IfThenElse(forwards, hi, lo),
-                                             hn::LoadU(tag, slabs.from_last[a] + first)),
-                                     inverse);
-            enter = a == 0 ? near : hn::IfThenElse(hn::Gt(near, enter), near, enter);
-            exit = a == 0 ? far : hn::IfThenElse(hn::Lt(far, exit), far, exit);
-        }
-        std::uint8_t bytes[8] = {};
-        hn::StoreMaskBits(tag, hn::Le(enter, exit), bytes);
-        out |= std::uint32_t{bytes[0]} << first;
-    }
-    return out;
+/// line_of() for the lines from `first` on.
+RAYMO_INLINE void set_lines(const RayBlock& rays, int first, FreeformPacket& out) {
+    const LocalRay<Lanes> ray = load(rays, first);
+    const Lanes size = lane_sqrt(ray.dd);
+    const Triple<Lanes> o{ray.ox, ray.oy, ray.oz};
+    const Triple<Lanes> along{ray.dx / size, ray.dy / size, ray.dz / size};
+    Triple<Lanes> side, up;
+    lane_frame(along, side, up);
+    const Lanes error = (ray.ex + ray.ey + ray.ez) + Lanes(4.0 * kFreeformOwnError);
+    const auto put = [&](const Triple<Lanes>& v, double(&to)[3][8]) RAYMO_INLINE_BODY {
+        store(v.x, to[0] + first);
+        store(v.y, to[1] + first);
+        store(v.z, to[2] + first);
+    };
+    put(o, out.o);
+    put(along, out.along);
+    put(side, out.side);
+    put(up, out.up);
+    store(error, out.error + first);
+    const Lanes always(-std::numeric_limits<double>::infinity());
+    set_slabs(o, along, error, always, first, out.slabs);
 }
 
-void freeform_walk(const FreeformSurface& surface, FreeformPacket& packet, std::uint32_t asked) {
+void freeform_walk(const FreeformSurface& surface, const RayBlock& rays, std::uint32_t asked,
+                   FreeformPacket& packet) {
+    for (int first = 0; first < 8; first += kLanes) set_lines(rays, first, packet);
     struct Waiting {
         std::uint32_t node;
         std::uint32_t rays;
@@ -301,13 +297,13 @@ void freeform_walk(const FreeformSurface& surface, FreeformPacket& packet, std::
         const Waiting at = open[--count];
         const FreeformNode& node = surface.nodes[at.node];
         for (std::size_t k = 0; k < EightBoxes::kWidth; ++k) {
-            const std::uint32_t rays = at.rays & met(packet.slabs, node.boxes, k);
-            if (rays == 0) continue;
+            const std::uint32_t here = at.rays & met(packet.slabs, node.boxes, k);
+            if (here == 0) continue;
             const std::uint32_t child = node.child[k];
             if ((child & FreeformNode::kLeaf) != 0) {
-                meet_all(surface, surface.leaves[child & ~FreeformNode::kLeaf], packet, rays);
+                meet_all(surface, surface.leaves[child & ~FreeformNode::kLeaf], packet, here);
             } else {
-                open[count++] = {child, rays};
+                open[count++] = {child, here};
             }
         }
     }
@@ -330,11 +326,7 @@ void Freeform::spans(const RayBlock& rays, std::uint32_t asked, SpanBlock& out) 
                                 rays.e[2][i], rays.dd[i],   rays.from[i]};
     };
     FreeformPacket packet;
-    for (std::uint32_t rest = asked; rest != 0; rest &= rest - 1) {
-        const int i = __builtin_ctz(rest);
-        packet.set(i, ray_of(i));
-    }
-    HWY_DYNAMIC_DISPATCH(freeform_walk)(surface, packet, asked);
+    HWY_DYNAMIC_DISPATCH(freeform_walk)(surface, rays, asked, packet);
     out.count = 0;
     out.left_over = 0;
     for (std::uint32_t& valid : out.valid) valid = 0;

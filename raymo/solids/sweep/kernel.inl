@@ -585,17 +585,6 @@ private:
     }
 };
 
-/// make_frame (math/vec.hpp) for several directions.
-template <class R>
-RAYMO_INLINE void lane_frame(const Triple<R>& along, Triple<R>& side, Triple<R>& up) {
-    const R one(1.0);
-    const R sign = lane_copysign(one, along.z);
-    const R a = R(-1.0) / (sign + along.z);
-    const R b = along.x * along.y * a;
-    side = {one + sign * along.x * along.x * a, sign * b, R(0.0) - sign * along.x};
-    up = {b, sign + along.y * along.y * a, R(0.0) - along.y};
-}
-
 template <class R, class M>
 RAYMO_INLINE SweepLines<R, M> sweep_lines(const LocalRay<R>& ray, LaneChords<R, M>& found) {
     const R unit = R(1.0) / lane_sqrt(ray.dd);

@@ -22,33 +22,15 @@ namespace HWY_NAMESPACE {
 #include "raymo/solids/interval.inl"
 //
 #include "raymo/solids/ray_block-inl.hpp"
+#include "raymo/solids/slabs-inl.hpp"
 #include "raymo/solids/sweep/kernel.inl"
-
-/// Slabs of the lines that are `asked`.
-HWY_INLINE void slabs_of(const SweepLines<Lanes, Mask>& lines, std::uint32_t asked,
-                         Slabs (&out)[8]) {
-    alignas(64) double o[3][8], along[3][8], error[8], past[8];
-    store(lines.o.x, o[0]);
-    store(lines.o.y, o[1]);
-    store(lines.o.z, o[2]);
-    store(lines.along.x, along[0]);
-    store(lines.along.y, along[1]);
-    store(lines.along.z, along[2]);
-    store(lines.error, error);
-    store(lines.past, past);
-    for (; asked != 0; asked &= asked - 1) {
-        const int i = __builtin_ctz(asked);
-        out[i] = Slabs({o[0][i], o[1][i], o[2][i]}, {along[0][i], along[1][i], along[2][i]},
-                       error[i], past[i]);
-    }
-}
 
 HWY_INLINE int sweep_spans(const SweptSpheres& spheres, const LocalRay<Lanes>& ray, Mask asked,
                            LaneSpans<Lanes, Mask, kSweptSpans>& out, Mask& left_over) {
     LaneChords<Lanes, Mask> found(mask_of(0));
     SweepLines<Lanes, Mask> lines = sweep_lines<Lanes, Mask>(ray, found);
-    Slabs slabs[8];
-    slabs_of(lines, bits(asked), slabs);
+    SlabLanes slabs{};
+    set_slabs(lines.o, lines.along, lines.error, lines.past, 0, slabs);
     struct Todo {
         std::uint32_t level, node, lanes;
     };
@@ -59,21 +41,14 @@ HWY_INLINE int sweep_spans(const SweptSpheres& spheres, const LocalRay<Lanes>& r
         const Todo at = open[--count];
         const std::uint32_t here = at.lanes & ~bits(found.rest);
         const SweptNode& node = spheres.levels[at.level][at.node];
-        std::uint32_t met[SweptNode::kWidth] = {};
-        std::uint32_t any = 0;
-        for (std::uint32_t rest = here; rest != 0; rest &= rest - 1) {
-            const int i = __builtin_ctz(rest);
-            std::uint32_t children = slabs[i].met(node);
-            any |= children;
-            for (; children != 0; children &= children - 1) met[__builtin_ctz(children)] |= 1U << i;
-        }
-        for (; any != 0; any &= any - 1) {
-            const auto c = static_cast<std::uint32_t>(__builtin_ctz(any));
+        for (std::uint32_t c = 0; c < SweptNode::kWidth; ++c) {
+            const std::uint32_t there = here & met(slabs, node, c);
+            if (there == 0) continue;
             const auto child = static_cast<std::uint32_t>(at.node * SweptNode::kWidth + c);
             if (at.level > 0) {
-                open[count++] = {at.level - 1, child, met[c]};
+                open[count++] = {at.level - 1, child, there};
             } else {
-                lines.meet(spheres.pieces[child], lane_and(mask_of(met[c]), lane_not(found.rest)));
+                lines.meet(spheres.pieces[child], lane_and(mask_of(there), lane_not(found.rest)));
             }
         }
     }
