@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "raymo/blends/corner.hpp"
+#include "raymo/blends/largest.hpp"
 #include "raymo/blends/tube.hpp"
 #include "raymo/blends/vertex.hpp"
 
@@ -16,36 +17,69 @@ namespace {
 /// Of the body's size: below it what a wedge reaches beyond faces comes near to roundings.
 constexpr double kSmallest = 0x1p-24;
 
-/// The largest radius that fits, rounded down to three digits; 0 when none does.
-double largest_radius(const std::function<bool(double)>& fits, double too_large) {
-    double lo = 0.0;
-    double hi = too_large;
-    double tried = too_large;
-    // Down to one that fits, then between.
-    for (int i = 0; i < 64 && lo == 0.0; ++i) {
-        tried *= 0.5;
-        if (fits(tried)) {
-            lo = tried;
-        } else {
-            hi = tried;
-        }
-    }
-    if (lo == 0.0) return 0.0;
-    for (int i = 0; i < 30; ++i) {
-        const double middle = 0.5 * (lo + hi);
-        (fits(middle) ? lo : hi) = middle;
-    }
-    // A search ends a little below a round number.
-    lo *= 1.0 + 0x1p-24;
-    const double unit = std::pow(10.0, std::floor(std::log10(lo)) - 2.0);
-    return std::floor(lo / unit) * unit;
+// What things take, in units of some 100 ns.
+constexpr double kSearchWork = 2.5e6;  ///< to look for a radius that works, at most,
+constexpr double kRefineWork = 1e6;    ///< and then for the largest
+constexpr double kTubeWork = 1e6;      ///< a wedge along a curve in space
+double corner_work(const Body& body, const Corner& corner) {
+    return static_cast<double>(body.faces().size() + corner.sides.size());
 }
 
-/// A hint that tells it.
-std::string largest_of(const Body& body, const std::function<bool(double)>& fits, double radius) {
+/// Looks for a radius that works, as long as that is allowed and worth it.
+class Trials {
+public:
+    Trials(const Spend& spend, double most)
+        : most_(most), spend_([this, &spend](double work) {
+              work_ += work;
+              is_stopped_ = is_stopped_ || (spend && !spend(work));
+              return !is_stopped_ && !is_cut_short();
+          }) {}
+    Trials(const Trials&) = delete;
+    Trials& operator=(const Trials&) = delete;
+
+    /// Work that is to be done. False: no more of it.
+    bool go_on(double work) { return spend_(work); }
+    /// Whether a ball fits along a segment; false, too, where there is no more time to find out.
+    bool fits(const Body& body, const Segment& segment, double radius) {
+        // What is in the way of one ball is in the way of the next one, too.
+        const Fitting fitting = fitting_of(body, segment, radius, spend_, suspect_);
+        if (fitting.fit != Fit::good) suspect_ = fitting.found;
+        return fitting.fit == Fit::good;
+    }
+    /// Whether it was not worth it to find the largest.
+    [[nodiscard]] bool is_cut_short() const { return work_ > most_; }
+    /// One works: to find a better one is worth so much more.
+    void found(double more) { most_ = work_ + more; }
+    /// The error, unless `spend` stopped all.
+    [[nodiscard]] Failure told(Failure failure) const {
+        return is_stopped_ ? fail(ErrorCode::cancelled, "stopped") : std::move(failure);
+    }
+
+private:
+    double most_;
+    double work_ = 0.0;
+    bool is_stopped_ = false;
+    std::size_t suspect_ = 0;  ///< the face next to which it was seen last that a ball does not fit
+    Spend spend_;
+};
+
+/// A hint that tells the largest radius that fits, or the largest that was found.
+std::string largest_of(const Body& body, Trials& trials, const std::function<bool(double)>& fits,
+                       double radius) {
+    const double size = max_norm(body.box().size());
+    bool any = false;
     // Between faces that are nearly flat large balls fit, but not that large ones.
-    const double most =
-        largest_radius(fits, std::min(radius, 0x1p20 * max_norm(body.box().size())));
+    const auto tried = [&](double r) {
+        const bool is_good = fits(r);
+        if (is_good && !any) trials.found(kRefineWork);
+        any = any || is_good;
+        return is_good;
+    };
+    const double most = largest_that(tried, std::max(kSmallest * size, 1e-307),
+                                     std::min({radius, 0x1p20 * size, 1e300}));
+    if (trials.is_cut_short())
+        return most > 0.0 ? fmt::format("a radius of {:g} works here", most)
+                          : "take a smaller radius";
     return most > 0.0 ? fmt::format("the largest radius that works here is {:g}", most)
                       : "no radius works here: choose other edges with `near` or `where`";
 }
@@ -63,7 +97,7 @@ std::optional<std::vector<Corner>> settled(const Body& body, std::vector<Segment
 }
 
 Failure does_not_fit(const Body& body, const std::vector<Segment>& segments, std::size_t which,
-                     const Fitting& fitting, const Form& form) {
+                     const Fitting& fitting, const Form& form, const Spend& spend) {
     const Segment& segment = segments[which];
     if (fitting.fit == Fit::endless_bend) {
         return fail(ErrorCode::out_of_range,
@@ -87,37 +121,47 @@ Failure does_not_fit(const Body& body, const std::vector<Segment>& segments, std
     } else if (fitting.fit == Fit::blocked) {
         message += fmt::format(": {} is in its way", body.name_of(body.faces()[fitting.face]));
     }
+    Trials trials(spend, kSearchWork);
     const auto fits = [&](double r) {
+        if (!trials.go_on(static_cast<double>(segments.size()))) return false;
         std::vector<Segment> again = segments;
         return settled(body, again, form.profile, r) &&
-               (again[which].is_used_up || fitting_of(body, again[which], r).fit == Fit::good);
+               (again[which].is_used_up || trials.fits(body, again[which], r));
     };
-    return fail(ErrorCode::out_of_range, std::move(message), largest_of(body, fits, form.radius));
+    std::string hint = largest_of(body, trials, fits, form.radius);
+    return trials.told(fail(ErrorCode::out_of_range, std::move(message), std::move(hint)));
 }
 
 Failure does_not_fit(const Body& body, const std::vector<Segment>& segments, const Corner& corner,
-                     const Fitting& fitting, const Form& form) {
+                     const Fitting& fitting, const Form& form, const Spend& spend) {
     std::string message =
         fmt::format("a ball of radius {:g} does not fit {}", form.radius, name_of(body, corner));
     if (fitting.fit == Fit::blocked)
         message += fmt::format(": {} is in its way", body.name_of(body.faces()[fitting.face]));
+    Trials trials(spend, kSearchWork);
     const auto fits = [&](double r) {
+        if (!trials.go_on(static_cast<double>(segments.size()))) return false;
         std::vector<Segment> again = segments;
         const auto corners = settled(body, again, form.profile, r);
         return corners && std::all_of(corners->begin(), corners->end(), [&](const Corner& c) {
-                   return fitting_of(body, c, r).fit == Fit::good;
+                   return trials.go_on(corner_work(body, c)) &&
+                          fitting_of(body, c, r).fit == Fit::good;
                });
     };
-    return fail(ErrorCode::out_of_range, std::move(message), largest_of(body, fits, form.radius));
+    std::string hint = largest_of(body, trials, fits, form.radius);
+    return trials.told(fail(ErrorCode::out_of_range, std::move(message), std::move(hint)));
 }
 
 /// Where a ball fits everywhere, but what it leaves can not be made.
-Failure is_too_sharp(const Body& body, const Segment& segment, const Form& form, SourceSpan span) {
+Failure is_too_sharp(const Body& body, const Segment& segment, const Form& form, SourceSpan span,
+                     const Spend& spend) {
     const double radius = form.radius;
+    constexpr int kMostTrials = 8;
+    Trials trials(spend, kSearchWork + kMostTrials * kTubeWork);
     const auto works = [&](double r) {
         Form smaller = form;
         smaller.radius = r;
-        return fitting_of(body, segment, r).fit == Fit::good &&
+        return trials.fits(body, segment, r) && trials.go_on(kTubeWork) &&
                tube_wedge(body, segment, smaller, segment.lo, segment.hi, span).has_value();
     };
     const char* what = form.profile == Profile::ball    ? "ball"
@@ -125,18 +169,19 @@ Failure is_too_sharp(const Body& body, const Segment& segment, const Form& form,
                                                         : "chamfer";
     // Two digits are enough.
     double smaller = 0.0;
-    for (int i = 1; i <= 8 && smaller == 0.0; ++i) {
+    for (int i = 1; i <= kMostTrials && smaller == 0.0; ++i) {
         const double unit = std::pow(10.0, std::floor(std::log10(radius * std::exp2(-i))) - 1.0);
         const double tried = std::floor(radius * std::exp2(-i) / unit) * unit;
         if (works(tried)) smaller = tried;
     }
-    return fail(ErrorCode::out_of_range,
-                fmt::format("the edge between {} and {} bends too sharply for a {} of radius {:g}",
-                            body.name_of(body.faces()[segment.face_a]),
-                            body.name_of(body.faces()[segment.face_b]), what, radius),
-                smaller > 0.0 ? fmt::format("a radius of {:g} works here", smaller)
-                              : "let them meet less slantingly, or choose other edges with `near` "
-                                "or `where`");
+    return trials.told(
+        fail(ErrorCode::out_of_range,
+             fmt::format("the edge between {} and {} bends too sharply for a {} of radius {:g}",
+                         body.name_of(body.faces()[segment.face_a]),
+                         body.name_of(body.faces()[segment.face_b]), what, radius),
+             smaller > 0.0 ? fmt::format("a radius of {:g} works here", smaller)
+                           : "let them meet less slantingly, or choose other edges with `near` "
+                             "or `where`"));
 }
 
 bool is_inside(const csg::Solid& solid, Vec3 p) {
@@ -283,15 +328,15 @@ Result<Blended> blend(const Body& body, csg::Solid sharp, bool within_operands,
     auto corners = find_corners(body, segments, form.profile, form.radius);
     if (!corners) return Failure(std::move(corners).error());
     for (std::size_t i = 0; i < segments.size(); ++i) {
-        if (!go_on(static_cast<double>(body.faces().size()) + 64.0)) return stopped;
         if (segments[i].is_used_up) continue;
-        const Fitting fitting = fitting_of(body, segments[i], form.radius);
-        if (fitting.fit != Fit::good) return does_not_fit(body, segments, i, fitting, form);
+        const Fitting fitting = fitting_of(body, segments[i], form.radius, spend);
+        if (fitting.fit == Fit::stopped) return stopped;
+        if (fitting.fit != Fit::good) return does_not_fit(body, segments, i, fitting, form, spend);
     }
     for (const Corner& corner : *corners) {
-        if (!go_on(static_cast<double>(body.faces().size() + corner.sides.size()))) return stopped;
+        if (!go_on(corner_work(body, corner))) return stopped;
         if (const Fitting fitting = fitting_of(body, corner, form.radius); fitting.fit != Fit::good)
-            return does_not_fit(body, segments, corner, fitting, form);
+            return does_not_fit(body, segments, corner, fitting, form, spend);
     }
     std::vector<Job> jobs;
     for (Segment& segment : segments) {
@@ -309,7 +354,7 @@ Result<Blended> blend(const Body& body, csg::Solid sharp, bool within_operands,
     }
     std::vector<RoundedRing> rings;
     for (std::size_t i = 0; i < jobs.size(); ++i) {
-        if (!go_on(jobs[i].segment.space ? 1e6 : 10.0)) return stopped;
+        if (!go_on(jobs[i].segment.space ? kTubeWork : 10.0)) return stopped;
         extend(body, jobs, i, form.radius, plans[i]);
         const Segment& segment = jobs[i].segment;
         const csg::MaterialId material = body.leaves()[body.faces()[segment.face_a].leaf].material;
@@ -324,7 +369,7 @@ Result<Blended> blend(const Body& body, csg::Solid sharp, bool within_operands,
         auto made = segment.space ? tube_wedge(body, segment, form, jobs[i].lo, jobs[i].hi, span)
                                   : solid_of(segment, form, jobs[i].lo, jobs[i].hi, span);
         if (!made && segment.space && made.error().code == ErrorCode::out_of_range)
-            return is_too_sharp(body, segment, form, span);
+            return is_too_sharp(body, segment, form, span, spend);
         if (!made) return Failure(std::move(made).error());
         jobs[i].solid = painted(std::move(*made), material, span);
     }

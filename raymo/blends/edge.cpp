@@ -228,12 +228,7 @@ void append_roots(const Arc& arc, const Surface& s, std::vector<double>& out) {
 void append_free(const EdgeCurve& edge, Vec2 section, const Surface& surface, double lo, double hi,
                  std::vector<double>& out) {
     // What runs along with a surface is as far from it everywhere.
-    const bool runs_along =
-        edge.is_circle ? surface.kind == SurfaceKind::turned : surface.kind == SurfaceKind::wall;
-    if (runs_along && is_parallel(edge.along, surface.axis) &&
-        (!edge.is_circle || is_on(edge.origin, surface.point, surface.axis, size_of(surface)))) {
-        return;
-    }
+    if (runs_along(edge, surface)) return;
     constexpr int kPlaces = 256;
     if (edge.is_circle) {
         lo = 0.0;
@@ -315,6 +310,43 @@ Meeting meeting_of(const Surface& a, const Surface& b) {
         a.kind == b.kind && (a.kind == SurfaceKind::plane || a.kind == SurfaceKind::sphere);
     meeting.is_general = !never;
     return meeting;
+}
+
+bool runs_along(const EdgeCurve& edge, const Surface& s) {
+    if (!edge.is_circle) {
+        if (s.kind == SurfaceKind::plane) return std::fabs(dot(s.axis, edge.along)) <= kShared;
+        return has_direction(s) && is_parallel(s.axis, edge.along);
+    }
+    if (s.kind == SurfaceKind::plane) return is_parallel(s.axis, edge.along);
+    if (s.kind != SurfaceKind::sphere && !(has_axis(s) && is_parallel(s.axis, edge.along)))
+        return false;
+    return is_on(edge.origin, s.point, edge.along, size_of(s));
+}
+
+bool is_one(const Surface& a, const Surface& b) {
+    if (a.kind != b.kind || a.is_free()) return false;
+    const double size = size_of(a) + size_of(b);
+    const auto is_near = [&](double x, double y) { return std::fabs(x - y) <= kShared * size; };
+    if (!is_near(a.radius, b.radius) || !is_near(a.tube, b.tube)) return false;
+    const Vec3 d = b.point - a.point;
+    switch (a.kind) {
+        case SurfaceKind::plane:
+            return is_parallel(a.axis, b.axis) && is_near(dot(d, a.axis), 0.0);
+        case SurfaceKind::sphere:
+            return is_near(norm(d), 0.0);
+        case SurfaceKind::cylinder:
+            return is_parallel(a.axis, b.axis) && is_on(b.point, a.point, a.axis, size);
+        case SurfaceKind::torus:
+            return is_parallel(a.axis, b.axis) && is_near(norm(d), 0.0);
+        case SurfaceKind::cone:
+            return is_parallel(a.axis, b.axis) && dot(a.axis, b.axis) > 0.0 &&
+                   is_near(norm(d), 0.0) && std::fabs(a.sine - b.sine) <= kShared;
+        case SurfaceKind::wall:
+        case SurfaceKind::turned:
+        case SurfaceKind::leaning:
+            break;
+    }
+    return false;
 }
 
 void append_crossings(const EdgeCurve& edge, Vec2 section, const Surface& surface, double lo,

@@ -43,6 +43,12 @@ struct Meeting {
 };
 [[nodiscard]] Meeting meeting_of(const Surface& a, const Surface& b);
 
+/// Whether a surface does not change when it is moved along the line, or turned about the circle's axis.
+[[nodiscard]] bool runs_along(const EdgeCurve& edge, const Surface& surface);
+
+/// Whether two surfaces are one, but for rounding. Of free-form ones it is not found out.
+[[nodiscard]] bool is_one(const Surface& a, const Surface& b);
+
 /// Parameters at which an edge, or any line or circle that runs along with it through `section`, meets a surface: within
 /// [lo, hi] on a line, in [0, 2 pi) on a circle. Each of them is found, those where they only touch, too; some more may be.
 /// Of free-form surfaces only those that are further apart than 1/256 of the range.

@@ -1,6 +1,8 @@
 #include "raymo/blends/surface.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace raymo::blends {
 namespace {
@@ -87,6 +89,27 @@ double Surface::distance(Vec3 p) const {
             const Ruling r = ruling(*this, p);
             return dot(p - r.at, r.normal);
         }
+    }
+    return 0.0;
+}
+
+double Surface::least_round(Vec3 p) const {
+    switch (kind) {
+        case SurfaceKind::plane:
+            return std::numeric_limits<double>::infinity();
+        case SurfaceKind::sphere:
+            return norm(p - point);
+        case SurfaceKind::cylinder:
+        case SurfaceKind::cone:
+            return polar(*this, p).across;
+        case SurfaceKind::torus: {
+            const Polar q = polar(*this, p);
+            return std::min(q.across, std::hypot(q.across - radius, q.along));
+        }
+        case SurfaceKind::wall:
+        case SurfaceKind::turned:
+        case SurfaceKind::leaning:
+            return 0.0;
     }
     return 0.0;
 }

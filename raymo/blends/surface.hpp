@@ -48,10 +48,14 @@ struct Surface {
 
     /// Euclidean, and exact but for rounding; of a cone and behind its apex: to the cone run through without end.
     [[nodiscard]] double distance(Vec3 p) const;
+    /// What it takes to tell a distance or a normal, in units of some 100 ns.
+    [[nodiscard]] double work() const { return is_free() ? 25.0 : 0.3; }
     /// Whether it is made of a free-form curve.
     [[nodiscard]] bool is_free() const { return run != nullptr; }
     /// Unit; the direction in which the distance grows. On an axis any of the directions across.
     [[nodiscard]] Vec3 normal(Vec3 p) const;
+    /// No principal radius of curvature of the surface's parallel through p is smaller [mm]; 0 where none is known.
+    [[nodiscard]] double least_round(Vec3 p) const;
     /// A point of the plane of a wall's run.
     [[nodiscard]] Vec3 place(Vec2 q) const { return point + across * q.x + up * q.y; }
     /// The apex of a leaning wall.

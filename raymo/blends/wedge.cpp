@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <unordered_map>
 
 #include "raymo/blends/conic.hpp"
 #include "raymo/blends/make.hpp"
+#include "raymo/blends/others.hpp"
 #include "raymo/core/assert.hpp"
 #include "raymo/math/tolerance.hpp"
 
@@ -66,19 +66,6 @@ curves::Outline outline_of(const Segment& segment, const Wedge& w, const Form& f
     return outline;
 }
 
-/// What is solid next to a contact: the ball may touch a face only where it bounds the body.
-Fitting at_contact(const Body& body, const Segment& segment, const Touch& touch, double radius) {
-    for (std::size_t i = 0; i < 2; ++i) {
-        const Vec3 step = touch.outward[i] * (0x1p-14 * radius);
-        const Where inner = body.where(touch.contact[i] - step);
-        const Where outer = body.where(touch.contact[i] + step);
-        if (inner == Where::out || outer == Where::in) {
-            return {Fit::off_face, i == 0 ? segment.face_a : segment.face_b};
-        }
-    }
-    return {};
-}
-
 /// Where a ball's centre is; also where leaves meet flush there, which is no boundary: both sides tell the same then.
 Where at_centre(const Body& body, const Touch& touch, double radius) {
     const Where where = body.where(touch.centre);
@@ -86,112 +73,6 @@ Where at_centre(const Body& body, const Touch& touch, double radius) {
     const Vec3 step = (touch.outward[0] - touch.outward[1]) * (0x1p-14 * radius);
     const Where beside = body.where(touch.centre + step);
     return body.where(touch.centre - step) == beside ? beside : Where::on;
-}
-
-/// Whether a face is met at an end of the segment that is within `reach` of t: there the wedge is cut by it.
-bool is_end(const Segment& segment, std::size_t face, double t, double reach) {
-    if (segment.is_closed) return false;
-    return std::any_of(std::begin(segment.ends), std::end(segment.ends), [&](const End& end) {
-        return std::fabs(end.at - t) < reach &&
-               std::find(end.faces.begin(), end.faces.end(), face) != end.faces.end();
-    });
-}
-
-/// Whether a third face comes into the ball about c at parameter t.
-bool is_in_the_way(const Body& body, const Segment& segment, std::size_t f, Vec3 c, double radius,
-                   double t, double margin) {
-    // An oblique one reaches some way along.
-    if (is_end(segment, f, t, 4.0 * margin)) return false;
-    const Aabb& box = body.leaves()[body.faces()[f].leaf].box;
-    if (!grown(box, radius).contains(c)) return false;
-    const Surface& surface = body.faces()[f].surface;
-    const double d = surface.distance(c);
-    if (!(std::fabs(d) < (1.0 - kPress) * radius)) return false;
-    const Vec3 n = surface.normal(c);
-    const Vec3 foot = c - n * d;
-    if (!body.is_on(body.faces()[f], foot)) return false;
-    // No farther than roundings ask for: blends have faces just within those of what they blend.
-    const double size = max_norm(foot) + max_norm(max(abs(body.box().lo), abs(body.box().hi)));
-    const Vec3 step = n * (64.0 * kPointError * size);
-    const Where a = body.where(foot - step);
-    const Where b = body.where(foot + step);
-    return a != b && a != Where::on && b != Where::on;
-}
-
-/// How far a point is from a box.
-double gap_to(const Aabb& box, Vec3 p) { return norm(max(max(box.lo - p, p - box.hi), Vec3{})); }
-
-/// Whether third faces come into the ball, or end one of its own faces under it, anywhere from lo to hi. A distance changes by
-/// no more than the way; so a stretch is settled where the distance in its middle is larger than half of it asks for, and
-/// any other is halved, down to kFinest of the radius: what comes into the ball over less is not as deep as 2^-13 of it.
-Fitting among_others(const Body& body, const Segment& segment, double radius, double lo, double hi,
-                     double margin) {
-    constexpr double kFinest = 0x1p-5;
-    constexpr int kMostHalvings = 12;
-    struct Stretch {
-        double lo, hi;
-        int halvings;
-    };
-    // The ways of centre and contacts, in parts of the edge's: exact along lines and circles.
-    const auto way = [&](const Touch& p, const Touch& q) {
-        return std::max({norm(p.centre - q.centre), norm(p.contact[0] - q.contact[0]),
-                         norm(p.contact[1] - q.contact[1])});
-    };
-    const bool is_bent = segment.space || segment.edge.is_circle;
-    // All faces ask for the same places.
-    struct Tried {
-        std::optional<Touch> touch;
-        bool is_good = false;  ///< its contacts are on the faces
-    };
-    std::unordered_map<double, Tried> tried;
-    const auto touch_of = [&](double t) -> Tried& {
-        const auto [place, is_new] = tried.try_emplace(t);
-        if (is_new) place->second.touch = touch_at(body, segment, radius, t);
-        return place->second;
-    };
-    std::vector<Stretch> open;
-    for (std::size_t f = 0; f < body.faces().size(); ++f) {
-        if (f == segment.face_a || f == segment.face_b) continue;
-        const Aabb& box = body.leaves()[body.faces()[f].leaf].near;
-        const Surface& surface = body.faces()[f].surface;
-        open.assign(1, {lo, hi, 0});
-        while (!open.empty()) {
-            const Stretch at = open.back();
-            open.pop_back();
-            const double t = 0.5 * (at.lo + at.hi);
-            Tried& here = touch_of(t);
-            const std::optional<Touch>& touch = here.touch;
-            const std::optional<Touch>& from = touch_of(at.lo).touch;
-            const std::optional<Touch>& to = touch_of(at.hi).touch;
-            if (!touch || !from || !to) return {Fit::none, 0};
-            // Arcs are longer than their chords: by less than a quarter where they turn by less than two radians.
-            const double half = is_bent && at.halvings < 3
-                                    ? (at.hi - at.lo) * segment.speed() + 2.0 * radius
-                                    : 1.25 * std::max(way(*from, *touch), way(*touch, *to));
-            const auto is_clear = [&](Vec3 p, double size) {
-                return std::max(std::fabs(surface.distance(p)), gap_to(box, p)) >= size + half;
-            };
-            if (is_clear(touch->centre, (1.0 - kPress) * radius) &&
-                is_clear(touch->contact[0], 0.0) && is_clear(touch->contact[1], 0.0)) {
-                continue;
-            }
-            if (is_in_the_way(body, segment, f, touch->centre, radius, t, margin))
-                return {Fit::blocked, f};
-            // Where the face ends the edge an oblique one reaches some way along.
-            const bool is_near = std::min(std::fabs(surface.distance(touch->contact[0])),
-                                          std::fabs(surface.distance(touch->contact[1]))) < half;
-            if (is_near && !here.is_good && !is_end(segment, f, t, 4.0 * margin)) {
-                if (const Fitting fit = at_contact(body, segment, *touch, radius);
-                    fit.fit != Fit::good)
-                    return fit;
-                here.is_good = true;
-            }
-            if (half <= kFinest * radius || at.halvings == kMostHalvings) continue;
-            open.push_back({at.lo, t, at.halvings + 1});
-            open.push_back({t, at.hi, at.halvings + 1});
-        }
-    }
-    return {};
 }
 
 }  // namespace
@@ -221,20 +102,24 @@ std::optional<Wedge> wedge_of(const Segment& segment, double radius) {
     return w;
 }
 
+Touch touch_at(const Segment& segment, const Wedge& w, double t) {
+    Touch touch;
+    touch.centre = segment.edge.place(w.centre, t);
+    for (std::size_t i = 0; i < 2; ++i) {
+        const SectionCurve& side = i == 0 ? segment.edge.a : segment.edge.b;
+        touch.contact[i] = segment.edge.place(w.contact[i], t);
+        touch.outward[i] = segment.edge.turn(side.outward(w.contact[i]), t);
+    }
+    return touch;
+}
+
 std::optional<Touch> touch_at(const Body& body, const Segment& segment, double radius, double t) {
+    if (!segment.space) {
+        const auto wedge = wedge_of(segment, radius);
+        return wedge ? std::optional(touch_at(segment, *wedge, t)) : std::nullopt;
+    }
     const double s = segment.sign();
     Touch touch;
-    if (!segment.space) {
-        const auto w = wedge_of(segment, radius);
-        if (!w) return std::nullopt;
-        touch.centre = segment.edge.place(w->centre, t);
-        for (std::size_t i = 0; i < 2; ++i) {
-            const SectionCurve& side = i == 0 ? segment.edge.a : segment.edge.b;
-            touch.contact[i] = segment.edge.place(w->contact[i], t);
-            touch.outward[i] = segment.edge.turn(side.outward(w->contact[i]), t);
-        }
-        return touch;
-    }
     const Surface& a = body.faces()[segment.face_a].surface;
     const Surface& b = body.faces()[segment.face_b].surface;
     const double side_a = segment.edge.a.side;
@@ -261,6 +146,14 @@ std::optional<Touch> touch_at(const Body& body, const Segment& segment, double r
     return touch;
 }
 
+double touch_work(const Body& body, const Segment& segment) {
+    // Newton's method takes some four steps, and asks for both surfaces' normals beside.
+    constexpr double kTimes = 8.0;
+    if (!segment.space) return 1.0;
+    return kTimes * (body.faces()[segment.face_a].surface.work() +
+                     body.faces()[segment.face_b].surface.work());
+}
+
 double extent_of(const Body& body, const Segment& segment, double radius) {
     double extent = 0.0;
     constexpr int kPlaces = 64;
@@ -277,7 +170,8 @@ double extent_of(const Body& body, const Segment& segment, double radius) {
     return extent;
 }
 
-Fitting fitting_of(const Body& body, const Segment& segment, double radius) {
+Fitting fitting_of(const Body& body, const Segment& segment, double radius, const Spend& spend,
+                   std::size_t first_face) {
     if (segment.space) {
         if (!segment.space->is_smooth()) return {Fit::endless_bend, 0};
         const Surface& a = body.faces()[segment.face_a].surface;
@@ -305,6 +199,8 @@ Fitting fitting_of(const Body& body, const Segment& segment, double radius) {
     }
     // Along a line or a circle only other faces make a difference, along a curve in space all does.
     const int places = segment.space ? 192 : 16;
+    const double work = places * (touch_work(body, segment) + 6.0 * body.where_work());
+    if (spend && !spend(work)) return {Fit::stopped, 0};
     Vec3 last;
     for (int i = 0; i < places; ++i) {
         const double t = lo + (hi - lo) * (i + 0.5) / places;
@@ -317,14 +213,14 @@ Fitting fitting_of(const Body& body, const Segment& segment, double radius) {
                 return {Fit::none, 0};
         }
         last = touch->centre;
-        if (const Fitting f = at_contact(body, segment, *touch, radius); f.fit != Fit::good)
+        if (const Fitting f = at_contacts(body, segment, *touch, radius); f.fit != Fit::good)
             return f;
         // A ball as large as the whole solid may have its foot on another face where that ends.
         if (at_centre(body, *touch, radius) != (segment.is_convex ? Where::in : Where::out))
             return {Fit::none, 0};
         if (lo == hi) break;
     }
-    return among_others(body, segment, radius, lo, hi, margin);
+    return among_others(body, segment, radius, lo, hi, margin, spend, first_face);
 }
 
 Result<csg::Solid> solid_of(const Segment& segment, const Form& form, double lo, double hi,

@@ -36,6 +36,11 @@ struct Touch {
 [[nodiscard]] std::optional<Touch> touch_at(const Body& body, const Segment& segment, double radius,
                                             double t);
 
+/// The same along a line or a circle, of the wedge there.
+[[nodiscard]] Touch touch_at(const Segment& segment, const Wedge& wedge, double t);
+/// What it takes to find one of these, in units of some 100 ns.
+[[nodiscard]] double touch_work(const Body& body, const Segment& segment);
+
 /// How a ball fits a body; the worst of what was found.
 enum class Fit : std::uint8_t {
     good,
@@ -44,13 +49,17 @@ enum class Fit : std::uint8_t {
     blocked,       ///< another face is in its way
     touching,      ///< the faces meet at too small an angle
     endless_bend,  ///< the edge could not be followed where it bends
+    stopped,       ///< `spend` did not allow to find out
 };
 struct Fitting {
     Fit fit = Fit::good;
-    std::size_t face = 0;  ///< which, if off_face or blocked
+    std::size_t face = 0;   ///< which, if off_face or blocked
+    std::size_t found = 0;  ///< next to which face
 };
-/// Tries the ball along the segment, away from its ends: at several places, and wherever a third face is near.
-[[nodiscard]] Fitting fitting_of(const Body& body, const Segment& segment, double radius);
+/// Tries the ball along the segment, away from its ends: at several places, and wherever a third face is near. `first`: of the
+/// faces, with which to begin.
+[[nodiscard]] Fitting fitting_of(const Body& body, const Segment& segment, double radius,
+                                 const Spend& spend = {}, std::size_t first = 0);
 
 /// How far a ball that fits and its contacts are away from the edge, at most.
 [[nodiscard]] double extent_of(const Body& body, const Segment& segment, double radius);
