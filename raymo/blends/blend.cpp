@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numbers>
 
 #include "raymo/blends/corner.hpp"
@@ -18,9 +19,9 @@ namespace {
 constexpr double kSmallest = 0x1p-24;
 
 // What things take, in units of some 100 ns.
-constexpr double kSearchWork = 2.5e6;  ///< to look for a radius that works, at most,
-constexpr double kRefineWork = 1e6;    ///< and then for the largest
-constexpr double kTubeWork = 1e6;      ///< a wedge along a curve in space
+constexpr double kSearchWork = 5e6;  ///< to look for a radius that works, at most,
+constexpr double kRefineWork = 2e6;  ///< and then for the largest
+constexpr double kTubeWork = 1e6;    ///< a wedge along a curve in space
 double corner_work(const Body& body, const Corner& corner) {
     return static_cast<double>(body.faces().size() + corner.sides.size());
 }
@@ -174,14 +175,17 @@ Failure is_too_sharp(const Body& body, const Segment& segment, const Form& form,
         const double tried = std::floor(radius * std::exp2(-i) / unit) * unit;
         if (works(tried)) smaller = tried;
     }
+    std::string hint = smaller > 0.0 ? fmt::format("a radius of {:g} works here", smaller)
+                       : trials.is_cut_short()
+                           ? "take a smaller radius"
+                           : "let them meet less slantingly, or choose other edges with `near` or "
+                             "`where`";
     return trials.told(
         fail(ErrorCode::out_of_range,
              fmt::format("the edge between {} and {} bends too sharply for a {} of radius {:g}",
                          body.name_of(body.faces()[segment.face_a]),
                          body.name_of(body.faces()[segment.face_b]), what, radius),
-             smaller > 0.0 ? fmt::format("a radius of {:g} works here", smaller)
-                           : "let them meet less slantingly, or choose other edges with `near` "
-                             "or `where`"));
+             std::move(hint)));
 }
 
 bool is_inside(const csg::Solid& solid, Vec3 p) {

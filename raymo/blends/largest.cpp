@@ -1,6 +1,8 @@
 #include "raymo/blends/largest.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace raymo::blends {
 namespace {
@@ -29,11 +31,15 @@ int number_below(double x) {
 
 double largest_that(const std::function<bool(double)>& works, double least, double most) {
     int too_large = number_below(most) + 1;  // as are all numbers after it
+    int smallest = number_below(least);
+    if (value_of(smallest) < least) ++smallest;
     int good = 0;
     bool found = false;
-    for (double tried = 0.5 * most; !found; tried *= 0.5) {
-        const int number = number_below(tried);
-        if (!(value_of(number) >= least)) return 0.0;
+    double tried = most;
+    for (int stride = 1, next = 1; !found; next += std::exchange(stride, next)) {
+        tried = std::ldexp(tried, -stride);
+        const int number = std::max(tried > least ? number_below(tried) : smallest, smallest);
+        if (number >= too_large) return 0.0;
         found = works(value_of(number));
         (found ? good : too_large) = number;
     }

@@ -2,6 +2,7 @@
 // on close beside the ball.
 #include "raymo/blends/others.hpp"
 
+#include <cmath>
 #include <cstdio>
 #include <random>
 

@@ -54,6 +54,6 @@ RAYMO_INLINE void lane_frame(const Triple<R>& along, Triple<R>& side, Triple<R>&
     const R sign = lane_copysign(one, along.z);
     const R a = R(-1.0) / (sign + along.z);
     const R b = along.x * along.y * a;
-    side = {one + sign * along.x * along.x * a, sign * b, R(0.0) - sign * along.x};
-    up = {b, sign + along.y * along.y * a, R(0.0) - along.y};
+    side = {one + sign * along.x * along.x * a, sign * b, R(-1.0) * (sign * along.x)};
+    up = {b, sign + along.y * along.y * a, R(-1.0) * along.y};
 }

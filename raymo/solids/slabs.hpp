@@ -48,7 +48,6 @@ struct alignas(32) SlabLanes {
 /// Slabs in floats, for boxes that are larger than need be by kBoxMargin [KayKajiya86].
 class Slabs {
 public:
-    Slabs() = default;
     /// `error`: of a place on the line. What the line has met before `past` along it does not count.
     Slabs(Vec3 origin, Vec3 along, double error,
           double past = -std::numeric_limits<double>::infinity())
@@ -103,7 +102,7 @@ private:
 
     /// The line's place, moved by the margin against the line for the planes that are met first, and on for the last.
     std::array<float, 3> inverse_, from_first_, from_last_;
-    float past_ = 0.0F;
+    float past_;
 };
 
 }  // namespace raymo::solids

@@ -25,7 +25,7 @@
 #define RAYMO_FREEFORM_PACKET
 namespace raymo::solids {
 
-/// Eight lines, and what has been found along each.
+/// Eight lines, all of them set by set_lines(), and what has been found along each.
 struct alignas(64) FreeformPacket {
     double o[3][8], along[3][8], side[3][8], up[3][8], error[8];
     SlabLanes slabs;

@@ -29,7 +29,7 @@ HWY_INLINE int sweep_spans(const SweptSpheres& spheres, const LocalRay<Lanes>& r
                            LaneSpans<Lanes, Mask, kSweptSpans>& out, Mask& left_over) {
     LaneChords<Lanes, Mask> found(mask_of(0));
     SweepLines<Lanes, Mask> lines = sweep_lines<Lanes, Mask>(ray, found);
-    SlabLanes slabs{};
+    SlabLanes slabs{};  // vectors may hold fewer lines than eight
     set_slabs(lines.o, lines.along, lines.error, lines.past, 0, slabs);
     struct Todo {
         std::uint32_t level, node, lanes;
