@@ -31,9 +31,9 @@ HWY_INLINE hn::Mask<Tag> float_mask(Tag tag, std::uint32_t lanes) {
 struct RaysInFloats {
     RayFloats ox, oy, oz, ix, iy, iz, from, to;
 };
+inline constexpr int kParts = kRays / kRayFloats;
 /// All of them. How many vectors there are is known to the compiler, so they stay in registers; those without a ray that
 /// counts are passed over.
-inline constexpr int kParts = kRays / kRayFloats;
 struct PacketInFloats {
     RaysInFloats part[kParts];
     bool used[kParts];
