@@ -42,26 +42,60 @@ using Memory = std::unique_ptr<std::uint8_t, Freed>;
 /// Not touched before it is used. Null when there is none.
 Memory room(std::size_t size) { return Memory(static_cast<std::uint8_t*>(std::malloc(size))); }
 
-/// Turns the film into the rows as they are deflated, each after the number of its filter, in the film's own memory: they
-/// are shorter than its floats, and memory that was never touched before is dear. `codes`: room for two rows.
-std::uint8_t* filter_rows(image::Film& film, std::uint8_t* codes) {
-    const std::size_t width = 3 * static_cast<std::size_t>(film.width);
-    auto* const rows = reinterpret_cast<std::uint8_t*>(film.rgb.data());
-    static_assert(sizeof(float) >= 2);  // a row and its filter are no longer than the floats of it
-    std::uint8_t* out = rows;
-    std::uint8_t* above = codes;
-    std::uint8_t* row = codes + width;
-    std::memset(above, 0, width);
-    for (int y = 0; y < film.height; ++y) {
-        image::to_srgb8(&film.rgb[static_cast<std::size_t>(y) * width], width, row);
-        *out++ = kUp;
-        for (std::size_t i = 0; i < width; ++i)
-            out[i] = static_cast<std::uint8_t>(row[i] - above[i]);
-        out += width;
-        std::swap(row, above);
+/// The rows of a film as they are deflated: each after the number of its filter.
+class Rows {
+public:
+    explicit Rows(image::Film& film)
+        : film_(film), width_(3 * static_cast<std::size_t>(film.width)) {}
+
+    /// False: not enough memory.
+    [[nodiscard]] bool filter() { return film_.codes.empty() ? filter_light() : filter_codes(); }
+    [[nodiscard]] std::uint8_t* data() const { return out_; }
+    [[nodiscard]] std::size_t size() const {
+        return (width_ + 1) * static_cast<std::size_t>(film_.height);
     }
-    return rows;
-}
+
+private:
+    /// In the film's own memory: codes are shorter than its floats, and memory that was never touched before is dear.
+    bool filter_light() {
+        static_assert(sizeof(float) >=
+                      2);  // a row and its filter are no longer than the floats of it
+        const Memory codes = room(2 * width_);  // for two rows
+        if (!codes) return false;
+        out_ = reinterpret_cast<std::uint8_t*>(film_.rgb.data());
+        std::uint8_t* above = codes.get();
+        std::uint8_t* row = above + width_;
+        std::memset(above, 0, width_);
+        for (std::size_t y = 0; y < static_cast<std::size_t>(film_.height); ++y) {
+            image::to_srgb8(&film_.rgb[y * width_], width_, row);
+            put(y, row, above);
+            std::swap(row, above);
+        }
+        return true;
+    }
+    bool filter_codes() {
+        memory_ = room(size());
+        if (!memory_) return false;
+        out_ = memory_.get();
+        const std::uint8_t* row = film_.codes.data();
+        std::memcpy(out_ + 1, row, width_);
+        *out_ = kUp;
+        for (std::size_t y = 1; y < static_cast<std::size_t>(film_.height); ++y, row += width_)
+            put(y, row + width_, row);
+        return true;
+    }
+    void put(std::size_t y, const std::uint8_t* row, const std::uint8_t* above) {
+        std::uint8_t* out = out_ + y * (width_ + 1);
+        *out++ = kUp;
+        for (std::size_t i = 0; i < width_; ++i)
+            out[i] = static_cast<std::uint8_t>(row[i] - above[i]);
+    }
+
+    image::Film& film_;
+    std::size_t width_;  ///< of a row of codes
+    Memory memory_;
+    std::uint8_t* out_ = nullptr;
+};
 
 /// Deflates `size` bytes into a stream as zlib has it. False: not enough memory.
 bool pack(std::uint8_t* bytes, std::size_t size, Memory& out, std::size_t& count) {
@@ -106,21 +140,17 @@ Result<Bytes> encode_png(image::Film film) {
     if (film.width <= 0 || film.height <= 0) {
         return fail(ErrorCode::out_of_range, "png: a picture needs at least one pixel");
     }
-    const std::size_t width = 3 * static_cast<std::size_t>(film.width);
-    const auto height = static_cast<std::size_t>(film.height);
-    if (film.rgb.size() != width * height) {
+    if ((film.codes.empty() ? film.rgb.size() : film.codes.size()) != film.components()) {
         return fail(ErrorCode::bad_argument, "png: the picture's pixels do not match its size");
     }
-    const std::size_t size = (width + 1) * height;
-    if (size > 0xffffffffU) {
+    Rows rows(film);
+    if (rows.size() > 0xffffffffU) {
         return fail(ErrorCode::limit, "png: the picture is larger than 4 GiB",
                     "ask for a smaller --size");
     }
-    const Memory codes = room(2 * width);
-    if (!codes) return out_of_memory();
     Memory packed;
     std::size_t count = 0;
-    if (!pack(filter_rows(film, codes.get()), size, packed, count)) return out_of_memory();
+    if (!rows.filter() || !pack(rows.data(), rows.size(), packed, count)) return out_of_memory();
 
     Bytes out{0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
     out.reserve(count + 256);

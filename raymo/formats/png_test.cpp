@@ -48,6 +48,23 @@ TEST_CASE("png: what is written reads back to the same pixels") {
     }
 }
 
+TEST_CASE("png: a film of codes gives the same file as one of light") {
+    for (const auto& [w, h] : {std::pair{1, 1}, {7, 3}, {321, 123}, {1, 500}}) {
+        const image::Film light = ramp(w, h);
+        image::Film codes(w, h, image::Kept::codes);
+        for (int y = 0; y < h; ++y) {
+            codes.put(0, y,
+                      &light.rgb[3 * static_cast<std::size_t>(y) * static_cast<std::size_t>(w)],
+                      static_cast<std::size_t>(w));
+        }
+        const auto a = formats::encode_png(light);
+        const auto b = formats::encode_png(codes);
+        REQUIRE(a.has_value());
+        REQUIRE(b.has_value());
+        CHECK(*a == *b);
+    }
+}
+
 TEST_CASE("png: the file says that it is sRGB") {
     const auto bytes = formats::encode_png(ramp(8, 8));
     REQUIRE(bytes.has_value());
@@ -60,7 +77,11 @@ TEST_CASE("png: a film that is no picture is an error") {
     CHECK_FALSE(formats::encode_png(image::Film{}).has_value());
     image::Film broken(4, 4);
     broken.rgb.pop_back();
-    const auto answer = formats::encode_png(broken);
-    REQUIRE_FALSE(answer.has_value());
-    CHECK(answer.error().code == ErrorCode::bad_argument);
+    image::Film short_of_codes(4, 4, image::Kept::codes);
+    short_of_codes.codes.pop_back();
+    for (const image::Film& film : {broken, short_of_codes}) {
+        const auto answer = formats::encode_png(film);
+        REQUIRE_FALSE(answer.has_value());
+        CHECK(answer.error().code == ErrorCode::bad_argument);
+    }
 }

@@ -56,6 +56,16 @@ private:
 
 }  // namespace
 
+void Film::put(int x, int y, const float* linear, std::size_t count) {
+    const std::size_t at = 3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
+                                static_cast<std::size_t>(x));
+    if (codes.empty()) {
+        std::copy(linear, linear + 3 * count, rgb.data() + at);
+    } else {
+        to_srgb8(linear, 3 * count, codes.data() + at);
+    }
+}
+
 void to_srgb8(const float* linear, std::size_t count, std::uint8_t* out) {
     static const Encoder kEncoder;
     const Encoder& encode = kEncoder;

@@ -10,15 +10,34 @@
 
 namespace raymo::image {
 
-/// Linear RGB floats by rows, top row first.
+/// What a film holds of a picture.
+enum class Kept : std::uint8_t {
+    light,  ///< linear floats, to go on computing with
+    codes,  ///< only what a screen shows of it, in a quarter of the memory
+};
+
+/// RGB by rows, top row first: linear floats or 8-bit sRGB.
 struct Film {
     int width = 0;
     int height = 0;
-    std::vector<float, Zeroed<float>> rgb;
+    std::vector<float, Zeroed<float>> rgb;                    ///< empty where codes are kept
+    std::vector<std::uint8_t, Zeroed<std::uint8_t>> codes{};  ///< empty where light is kept
 
     Film() = default;
-    Film(int w, int h)
-        : width(w), height(h), rgb(3 * static_cast<std::size_t>(w) * static_cast<std::size_t>(h)) {}
+    Film(int w, int h, Kept kept = Kept::light)
+        : width(w),
+          height(h),
+          rgb(kept == Kept::light ? components() : 0),
+          codes(kept == Kept::codes ? components() : 0) {}
+    /// Of all pixels together.
+    [[nodiscard]] std::size_t components() const {
+        return 3 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+    }
+    /// `count` pixels of linear light from (x, y) to the right, three floats each. For both kinds.
+    void put(int x, int y, const float* linear, std::size_t count);
+
+    // The others are for a film that keeps light.
+
     void set(int x, int y, Vec3 colour) {
         set(static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
                 static_cast<std::size_t>(x),
@@ -38,7 +57,7 @@ struct Film {
     }
 };
 
-/// 8-bit sRGB by rows, top row first; values are clipped to 0..1 and rounded to nearest.
+/// 8-bit sRGB of a film that keeps light, by rows; values are clipped to 0..1 and rounded to nearest.
 [[nodiscard]] std::vector<std::uint8_t> to_srgb8(const Film& film);
 /// The same for `count` components, so that a picture can be encoded row by row. Not a number
 /// becomes 0.

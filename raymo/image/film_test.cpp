@@ -33,17 +33,17 @@ int expected(float x) {
 }  // namespace
 
 TEST_CASE("zeroed memory: small blocks are given back wherever they stand") {
-    // So many that one begins where a large page does.
+    // So many that one begins where a mapping might.
     constexpr std::size_t kBytes = 12, kBlocks = std::size_t{1} << 18U,
-                          kLargePage = std::size_t{1} << 21U;
+                          kRound = std::size_t{1} << 21U;
     std::vector<void*> blocks(kBlocks);
-    int at_large_pages = 0;
+    int round = 0;
     for (void*& block : blocks) {
         block = image::allocate_zeroed(kBytes);
         REQUIRE(block != nullptr);
-        at_large_pages += reinterpret_cast<std::uintptr_t>(block) % kLargePage == 0 ? 1 : 0;
+        round += reinterpret_cast<std::uintptr_t>(block) % kRound == 0 ? 1 : 0;
     }
-    WARN(at_large_pages > 0);  // other allocators may never do that
+    WARN(round > 0);  // other allocators may never do that
     for (void* block : blocks) image::free_zeroed(block, kBytes);
     const std::vector<char> after(kBytes * kBlocks, 'a');
     CHECK(after.back() == 'a');
@@ -107,4 +107,29 @@ TEST_CASE("film: begins black, whatever its memory was used for") {
             CHECK(moved.at(width - 1, 599) == Vec3{1, 1, 1});
         }
     }
+}
+
+TEST_CASE("film: codes are those of the light that is put there") {
+    const int width = 37;
+    const int height = 5;
+    Film light(width, height);
+    Film codes(width, height, image::Kept::codes);
+    CHECK(codes.rgb.empty());
+    CHECK(codes.codes.size() == codes.components());
+    std::vector<float> row(3 * width);
+    for (int y = 0; y < height; ++y) {
+        for (std::size_t i = 0; i < row.size(); ++i)
+            row[i] =
+                static_cast<float>(std::fmod(0.37 * static_cast<double>(i + 1) * (y + 1), 1.2));
+        // In two parts, the second from the middle of the row on.
+        for (Film* film : {&light, &codes}) {
+            film->put(0, y, row.data(), 20);
+            film->put(20, y, row.data() + 60, static_cast<std::size_t>(width - 20));
+        }
+    }
+    CHECK(light.codes.empty());
+    CHECK(light.at(36, 4).z == static_cast<double>(row.back()));
+    const auto expected_codes = image::to_srgb8(light);
+    CHECK(std::equal(codes.codes.begin(), codes.codes.end(), expected_codes.begin(),
+                     expected_codes.end()));
 }

@@ -17,31 +17,64 @@ constexpr double kFirstPass = 0.6;
 
 using Signatures = std::vector<Signature, image::Zeroed<Signature>>;
 
-/// Draws pixels of one tile with `samples` rays each: those for which wanted(x, y) holds.
-template <class Wanted>
-void draw_samples(const Sitting& s, const Rect& tile, std::uint32_t samples, RayShader& shader,
-                  Wanted&& wanted) {
+/// The number of a pixel in its tile.
+std::size_t slot_of(const Rect& tile, int x, int y) {
+    return static_cast<std::size_t>((y - tile.y0) * kTile + (x - tile.x0));
+}
+
+/// Light of a whole tile, on its way to a film of either kind.
+class TileLight {
+public:
+    void set(std::size_t slot, const Colour& light) {
+        float* p = &rgb_[3 * slot];
+        for (int a = 0; a < 3; ++a) p[a] = static_cast<float>(light[a]);
+    }
+    void put(const Rect& tile, image::Film& film) const {
+        for (int y = tile.y0; y < tile.y1; ++y) {
+            film.put(tile.x0, y, &rgb_[3 * slot_of(tile, tile.x0, y)],
+                     static_cast<std::size_t>(tile.x1 - tile.x0));
+        }
+    }
+
+private:
+    std::array<float, 3 * std::size_t{kTile} * kTile> rgb_;
+};
+
+/// Draws pixels of one tile with `samples` rays each, those for which wanted(x, y) holds, and gives take(x, y, light) what
+/// they show. False: cancelled, nothing was given.
+template <class Wanted, class Take>
+bool draw_samples(const Sitting& s, const Rect& tile, std::uint32_t samples, RayShader& shader,
+                  Wanted&& wanted, Take&& take) {
     std::array<Colour, kTile * kTile> sum{};
     Sampler sampler(
         s, shader, samples, false,
-        [&](std::size_t pixel, const Colour& light, const Signature&) { sum[pixel] += light; });
-    const auto slot = [&](int x, int y) {
-        return static_cast<std::size_t>((y - tile.y0) * kTile + (x - tile.x0));
-    };
+        [&](std::size_t slot, const Colour& light, const Signature&) { sum[slot] += light; });
     bool stopped = false;
     for_each_cell(tile, [&](int x, int y) {
         if (stopped || !wanted(x, y)) return;
         stopped = s.crew.cancelled();
         for (std::uint32_t k = 0; k < samples && !stopped; ++k) {
-            sampler.add_sample(x, y, k, slot(x, y));
+            sampler.add_sample(x, y, k, slot_of(tile, x, y));
             if ((k & 255U) == 255U) stopped = s.crew.cancelled();
         }
     });
     sampler.flush();
-    if (stopped) return;
+    if (stopped) return false;
     for_each_cell(tile, [&](int x, int y) {
-        if (wanted(x, y)) s.film.set(x, y, sum[slot(x, y)] * (1.0 / samples));
+        if (wanted(x, y)) take(x, y, sum[slot_of(tile, x, y)] * (1.0 / samples));
     });
+    return true;
+}
+
+/// Draws the pixels of one tile by rays through their middles: take(slot, light, signature).
+template <class Take>
+void draw_middles(const Sitting& s, const Rect& tile, bool signatures, RayShader& shader,
+                  Take&& take) {
+    Sampler sampler(s, shader, 1, signatures, take);
+    for_each_block(
+        tile, [&](int x, int y) { sampler.add_middles(x, y, slot_of(tile, x, y), kTile); },
+        [&](int x, int y) { sampler.add_middle(x, y, slot_of(tile, x, y)); });
+    sampler.flush();
 }
 
 /// Marks the pixels of `tile` that differ from a neighbour.
@@ -72,42 +105,41 @@ void mark_edges(const image::Film& film, const Signatures& seen, const Rect& til
 
 bool draw_uniformly(const Sitting& s, const std::vector<Rect>& tiles, int samples) {
     return s.crew.run(tiles, 0.0, 1.0, [&](const Rect& tile, RayShader& shader) {
-        draw_samples(s, tile, static_cast<std::uint32_t>(samples), shader,
-                     [](int, int) { return true; });
+        TileLight light;
+        const bool done = draw_samples(
+            s, tile, static_cast<std::uint32_t>(samples), shader, [](int, int) { return true; },
+            [&](int x, int y, const Colour& c) { light.set(slot_of(tile, x, y), c); });
+        if (done) light.put(tile, s.film);
     });
 }
 
-}  // namespace
+bool draw_once(const Sitting& s, const std::vector<Rect>& tiles) {
+    return s.crew.run(tiles, 0.0, 1.0, [&](const Rect& tile, RayShader& shader) {
+        TileLight light;
+        draw_middles(
+            s, tile, false, shader,
+            [&](std::size_t slot, const Colour& c, const Signature&) { light.set(slot, c); });
+        light.put(tile, s.film);
+    });
+}
 
-bool draw_final(const Sitting& s) {
-    const std::vector<Rect> tiles = tiles_of(s.film.width, s.film.height, kTile);
-    if (s.options.samples > 1) {
-        return draw_uniformly(s, tiles, std::min(s.options.samples, kMostSamples));
-    }
-    if (s.options.samples <= 0 && s.camera.aperture > 0.0) {
-        return draw_uniformly(s, tiles, kLensSamples);
-    }
-
-    const bool once = s.options.samples == 1;
-    const std::size_t pixels = s.film.rgb.size() / 3;
-    Signatures seen(once ? 0 : pixels);
+bool draw_with_sharp_edges(const Sitting& s, const std::vector<Rect>& tiles) {
+    const std::size_t pixels = s.film.components() / 3;
+    Signatures seen(pixels);
     const auto w = static_cast<std::size_t>(s.film.width);
-    const auto draw_middles = [&](const Rect& tile, RayShader& shader) {
-        Sampler sampler(s, shader, 1, !once,
-                        [&](std::size_t pixel, const Colour& light, const Signature& signature) {
-                            s.film.set(pixel, light);
-                            if (!once) seen[pixel] = signature;
-                        });
-        const auto pixel = [w](int x, int y) {
-            return static_cast<std::size_t>(y) * w + static_cast<std::size_t>(x);
-        };
-        for_each_block(
-            tile, [&](int x, int y) { sampler.add_middles(x, y, pixel(x, y), w); },
-            [&](int x, int y) { sampler.add_middle(x, y, pixel(x, y)); });
-        sampler.flush();
+    const auto number_of = [w](int x, int y) {
+        return static_cast<std::size_t>(y) * w + static_cast<std::size_t>(x);
     };
-    if (!s.crew.run(tiles, 0.0, once ? 1.0 : kFirstPass, draw_middles)) return false;
-    if (once) return true;
+    const auto draw = [&](const Rect& tile, RayShader& shader) {
+        const std::size_t first = number_of(tile.x0, tile.y0);
+        draw_middles(s, tile, true, shader,
+                     [&](std::size_t slot, const Colour& light, const Signature& signature) {
+                         const std::size_t pixel = first + slot / kTile * w + slot % kTile;
+                         s.film.set(pixel, light);
+                         seen[pixel] = signature;
+                     });
+    };
+    if (!s.crew.run(tiles, 0.0, kFirstPass, draw)) return false;
 
     // Marked before any pixel is drawn again, so that the order of tiles does not matter.
     std::vector<std::uint8_t> edge(pixels);
@@ -116,10 +148,24 @@ bool draw_final(const Sitting& s) {
         return false;
     }
     return s.crew.run(tiles, kFirstPass, 1.0, [&](const Rect& tile, RayShader& shader) {
-        draw_samples(s, tile, kEdgeSamples, shader, [&](int x, int y) {
-            return edge[static_cast<std::size_t>(y) * w + static_cast<std::size_t>(x)] != 0;
-        });
+        static_cast<void>(draw_samples(
+            s, tile, kEdgeSamples, shader, [&](int x, int y) { return edge[number_of(x, y)] != 0; },
+            [&](int x, int y, const Colour& light) { s.film.set(x, y, light); }));
     });
+}
+
+}  // namespace
+
+bool is_uniform(const Options& options, const scene::Camera& camera) {
+    return options.samples > 0 || (options.quality == Quality::final && camera.aperture > 0.0);
+}
+
+bool draw_final(const Sitting& s) {
+    const std::vector<Rect> tiles = tiles_of(s.film.width, s.film.height, kTile);
+    if (!is_uniform(s.options, s.camera)) return draw_with_sharp_edges(s, tiles);
+    if (s.options.samples == 1) return draw_once(s, tiles);
+    return draw_uniformly(
+        s, tiles, s.options.samples > 0 ? std::min(s.options.samples, kMostSamples) : kLensSamples);
 }
 
 }  // namespace raymo::render

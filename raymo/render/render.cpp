@@ -36,7 +36,8 @@ Result<image::Film> render(const trace::CompiledScene& scene, const Look& look,
     const Stage stage(scene, look, options);
     const scene::View view(look.camera, options.width, options.height);
     Crew crew(stage, executor, progress);
-    image::Film film(options.width, options.height);
+    image::Film film(options.width, options.height,
+                     is_uniform(options, look.camera) ? options.kept : image::Kept::light);
     const Sitting sitting{stage, view, look.camera, options, crew, film};
     bool done = false;
     if (options.samples > 0 || options.quality == Quality::final) {

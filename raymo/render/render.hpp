@@ -28,6 +28,8 @@ struct Options {
     int max_depth = 8;              ///< longest chain of reflections and refractions
     double min_weight = 1.0 / 512;  ///< a ray that contributes less is not traced
     std::uint64_t seed = 1;
+    /// What the film needs to keep. Light is kept all the same where neighbours are compared on the way.
+    image::Kept kept = image::Kept::light;
 };
 
 /// Everything a picture needs besides the solids: one camera, the lights that shine, ambient and

@@ -118,6 +118,38 @@ TEST_CASE("render: the same picture, bit for bit, in any order and with any numb
     }
 }
 
+TEST_CASE("render: a film of codes shows what a film of light would") {
+    const scene::Scene scene = balls();
+    const auto compiled = trace::compile(scene);
+    REQUIRE(compiled.has_value());
+    Look look = look_of(scene, compiled->bounds(), 93.0 / 70);
+    Executor executor;
+    Progress progress;
+    for (const double aperture : {0.0, 2.0}) {
+        look.camera.aperture = aperture;
+        for (Options options :
+             {small(Quality::final), small(Quality::final, 1), small(Quality::final, 3),
+              small(Quality::preview), small(Quality::preview, 1), small(Quality::draft)}) {
+            const auto light = render::render(*compiled, look, options, executor, progress);
+            options.kept = image::Kept::codes;
+            const auto codes = render::render(*compiled, look, options, executor, progress);
+            REQUIRE(light.has_value());
+            REQUIRE(codes.has_value());
+            // Pixels that are compared with others are kept as light in any case.
+            const bool compared =
+                options.samples == 0 && (options.quality != Quality::final || aperture == 0.0);
+            CHECK(codes->codes.empty() == compared);
+            if (compared) {
+                CHECK(codes->rgb == light->rgb);
+            } else {
+                const auto expected = image::to_srgb8(*light);
+                CHECK(std::equal(codes->codes.begin(), codes->codes.end(), expected.begin(),
+                                 expected.end()));
+            }
+        }
+    }
+}
+
 TEST_CASE("render: another seed moves the samples, the same one does not") {
     const scene::Scene scene = balls();
     const auto compiled = trace::compile(scene);

@@ -213,6 +213,9 @@ private:
     std::array<std::size_t, EyeBatch::kMost> pixel_;
 };
 
+/// Whether all pixels get equally many rays, so that none is compared with its neighbours.
+[[nodiscard]] bool is_uniform(const Options& options, const scene::Camera& camera);
+
 /// Every pixel once, then edges again; or all pixels with equally many samples. False: cancelled.
 [[nodiscard]] bool draw_final(const Sitting& sitting);
 /// Every fourth pixel of every fourth row, spread out; or interpolated, and refined where

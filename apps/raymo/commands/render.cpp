@@ -57,6 +57,7 @@ int trace_picture(Session& session, const render::Look& look, image::Film& film)
     wanted.quality = options.quality;
     wanted.samples = options.samples;
     wanted.seed = options.seed;
+    wanted.kept = image::Kept::codes;
     const std::unique_ptr<Executor> executor = make_executor(session.threads());
     Watch watch(session.console, "tracing", session.deadline());
     render::Stats counted;
