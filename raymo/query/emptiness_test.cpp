@@ -54,7 +54,7 @@ csg::Solid turned(const csg::Solid& s) {
 
 bool scene_empty(const csg::Solid& solid, Progress* progress = nullptr) {
     scene::Scene scene;
-    scene.materials.emplace_back();  // for paint
+    scene.materials.resize(1);  // for paint
     scene.parts.push_back({"a", solid, {}});
     const Result<trace::CompiledScene> compiled = trace::compile(scene, nullptr);
     REQUIRE(compiled.has_value());

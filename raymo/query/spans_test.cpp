@@ -30,8 +30,8 @@ struct Traced {
 
 scene::Scene ball_and_red_block() {
     scene::Scene scene;
-    scene.materials.emplace_back();
-    scene.materials[0].name = "red";
+    scene.materials.resize(1);
+    scene.materials.edit(0).name = "red";
     scene.parts.push_back({"ball", sphere(1), {}});
     scene.parts.push_back({"brick", csg::paint(move(block(2, 2, 2), {5, -1, -1}), 0), {}});
     return scene;

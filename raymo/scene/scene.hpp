@@ -8,7 +8,7 @@
 #include "raymo/csg/model.hpp"
 #include "raymo/scene/camera.hpp"
 #include "raymo/scene/light.hpp"
-#include "raymo/scene/material.hpp"
+#include "raymo/scene/material_table.hpp"
 
 namespace raymo::scene {
 
@@ -34,7 +34,7 @@ struct Background {
 
 struct Scene {
     std::vector<Part> parts;
-    std::vector<Material> materials;   ///< csg::MaterialId is an index into this
+    MaterialTable materials;           ///< csg::MaterialId is an index into this
     std::vector<NamedCamera> cameras;  ///< the first is the default; empty: fitted to the model
     std::vector<Light> lights;         ///< empty: the default rig
     std::optional<Colour> ambient;     ///< empty: the default of the rig

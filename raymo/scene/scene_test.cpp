@@ -24,6 +24,36 @@ Vec3 seen_at(const Camera& camera, double w, double h, Vec3 p) {
 
 }  // namespace
 
+TEST_CASE("materials: copies of a table share it until one of them changes") {
+    const auto with_ior = [](double ior) {
+        Material m;
+        m.ior = ior;
+        return m;
+    };
+    MaterialTable table;
+    CHECK(table.empty());
+    for (int i = 0; i < 200; ++i) table.push_back(with_ior(i));
+    MaterialTable copy = table;
+    CHECK(&copy[150] == &table[150]);
+    const Material* const first = &table[0];
+    copy.edit(150).ior = -1.0;
+    copy.push_back(with_ior(200.0));
+    table.push_back(with_ior(-200.0));
+    table.resize(300);
+    CHECK(copy.size() == 201);
+    CHECK(table.size() == 300);
+    for (std::size_t i = 0; i < 200; ++i) {
+        CHECK(table[i].ior == static_cast<double>(i));
+        CHECK(copy[i].ior == (i == 150 ? -1.0 : static_cast<double>(i)));
+    }
+    CHECK(copy[200].ior == 200.0);
+    CHECK(table[200].ior == -200.0);
+    CHECK(table[299] == Material{});
+    CHECK(&table[0] == first);
+    CHECK(table.any_of([](const Material& m) { return m.ior == -200.0; }));
+    CHECK_FALSE(copy.any_of([](const Material& m) { return m.ior == -200.0; }));
+}
+
 TEST_CASE("sRGB: black, white and middle grey") {
     CHECK(from_srgb({0, 1, 0.5}).x == 0.0);
     CHECK(from_srgb({0, 1, 0.5}).y == doctest::Approx(1.0));

@@ -98,7 +98,8 @@ bool Evaluator::made(meshes::Mesh mesh, NodeId site, Value& out) {
 csg::MaterialId Evaluator::material(const scene::Material& m) {
     NumberSum sum;
     for (const double x : {m.color.x, m.color.y, m.color.z, m.diffuse, m.specular, m.roughness,
-                           m.metal, m.mirror, m.transmission, m.ior}) {
+                           m.metal, m.mirror, m.transmission, m.ior, m.absorption.x, m.absorption.y,
+                           m.absorption.z, static_cast<double>(m.facets)}) {
         sum.add(x);
     }
     // Names go with numbers: few materials differ in nothing else.

@@ -176,8 +176,9 @@ TEST_CASE("evaluate: the specular of a preset is its reflectance at normal incid
     const auto made = [](const std::string& preset) {
         const Run r = run("part a = sphere(1).paint(" + preset + "())\n");
         REQUIRE(r.outcome.ok);
-        for (const scene::Material& m : r.outcome.scene.materials) {
-            if (m.name == preset) return m;
+        const scene::MaterialTable& materials = r.outcome.scene.materials;
+        for (std::size_t i = 0; i < materials.size(); ++i) {
+            if (materials[i].name == preset) return materials[i];
         }
         FAIL("no material is called " << preset);
         return scene::Material{};

@@ -28,8 +28,7 @@ Result<CompiledScene> compile(const scene::Scene& scene, Progress* progress) {
     data->default_material = scene::default_material();
     // May have it, until the looks are known: most scenes have none, and need not ask for each leaf.
     data->has_transparency =
-        std::any_of(data->materials.begin(), data->materials.end(),
-                    [](const scene::Material& m) { return m.transmission > 0.0; });
+        data->materials.any_of([](const scene::Material& m) { return m.transmission > 0.0; });
     std::vector<csg::Solid> parts;
     for (const scene::Part& part : scene.parts) {
         parts.push_back(part.solid);

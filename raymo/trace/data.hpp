@@ -112,7 +112,7 @@ struct CompiledScene::Data {
     std::vector<Frame> frames;
     KernelTables kernels;
     std::vector<Look> looks;
-    std::vector<scene::Material> materials;
+    scene::MaterialTable materials;
     scene::Material default_material;
     double leaf_count = 0.0;
     bool has_transparency = false;

@@ -28,7 +28,7 @@ void add(scene::Scene& scene, Solid solid, csg::MaterialId material) {
 scene::Scene with_glass() {
     scene::Scene scene;
     scene.materials.resize(2);
-    scene.materials[kGlass].transmission = 0.9;
+    scene.materials.edit(kGlass).transmission = 0.9;
     return scene;
 }
 

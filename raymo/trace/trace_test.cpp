@@ -267,7 +267,7 @@ TEST_CASE("trace: packets go through products of solids that are met several tim
 TEST_CASE("trace: from within glass, packets and single rays give the same bits") {
     scene::Scene scene;
     scene.materials.resize(2);
-    scene.materials[0].transmission = 0.9;
+    scene.materials.edit(0).transmission = 0.9;
     scene.parts.push_back({"slab", csg::paint(moved(block({10, 1, 10}), {-5, -2, -5}), 0), {}});
     scene.parts.push_back({"ball", csg::paint(moved(sphere(1.5), {0, 1, 0}), 0), {}});
     scene.parts.push_back({"core", csg::paint(moved(sphere(0.6), {0, 1, 0}), 1), {}});
@@ -316,7 +316,7 @@ TEST_CASE("trace: from within glass, packets and single rays give the same bits"
 TEST_CASE("trace: told which leaf they start in, packets give the same bits; told wrongly too") {
     scene::Scene scene;
     scene.materials.resize(1);
-    scene.materials[0].transmission = 0.9;
+    scene.materials.edit(0).transmission = 0.9;
     // The pane and the ring stand apart, though the ring goes round the ball; the ball and the block overlap.
     scene.parts.push_back({"pane", csg::paint(moved(block({10, 1, 10}), {-5, -4, -5}), 0), {}});
     scene.parts.push_back({"ring", csg::paint(primitive("torus", {2.0, 0.5}), 0), {}});
@@ -374,7 +374,7 @@ TEST_CASE("trace: told which leaf they start in, packets give the same bits; tol
 TEST_CASE("trace: from within parts that overlap the media are those that all of the line tells") {
     scene::Scene scene;
     scene.materials.resize(3);
-    for (auto& material : scene.materials) material.transmission = 0.9;
+    for (std::size_t i = 0; i < 3; ++i) scene.materials.edit(i).transmission = 0.9;
     const Solid solids[] = {primitive("prism", {curves::sample_disc(), 2.0}),
                             primitive("revolve", {curves::sample_half_disc(), 360.0}),
                             primitive("prism", {curves::sample_rectangle(), 2.0})};
