@@ -58,6 +58,25 @@ void destroy(const Node* first) {
     }
 }
 
+/// Moves a solid that nobody else refers to within its own node, where that rounds nothing.
+bool move_in_place(const Solid& solid, Vec3 by, SourceSpan span) {
+    const Node& seen = solid.node();
+    if (seen.references.load(std::memory_order_acquire) != 1) return false;
+    auto& node = const_cast<Node&>(seen);  // no other handle could see it change
+    if (node.kind == NodeKind::transform) {
+        Vec3& offset = static_cast<TransformNode&>(node).map.offset;
+        if (offset != Vec3{}) return false;
+        offset = by;
+        node.span = span;
+        return true;
+    }
+    if (node.kind != NodeKind::leaf) return false;
+    Vec3& offset = static_cast<LeafNode&>(node).solid.to_object.offset;
+    if (offset != Vec3{}) return false;
+    offset = by;
+    return true;
+}
+
 void count_child(Node& parent, const Solid& child) {
     parent.leaf_count += child.node().leaf_count;
     parent.node_count += child.node().node_count;
@@ -104,6 +123,7 @@ Result<Solid> transform(Solid child, const Affine& map, SourceSpan span) {
                     "transform: the transformation can not be undone, it makes the solid flat",
                     "no scale may be 0, and the axes must keep different directions");
     }
+    if (map.linear == Mat3{} && move_in_place(child, map.offset, span)) return child;
     auto* node = new TransformNode;
     node->span = span;
     node->map = map;

@@ -54,9 +54,9 @@ struct Node {
     NodeKind kind;
     Op op = Op::unite;  ///< of a boolean
     SourceSpan span;    ///< the expression that made the node
-    double leaf_count =
-        1.0;  ///< leaves below, each counted as often as it is instanced; may be huge
-    double node_count = 1.0;  ///< nodes below, counted the same way
+    float node_count =
+        1.0F;  ///< nodes below, each counted as often as it is instanced; exact up to 10^7
+    double leaf_count = 1.0;  ///< leaves below, counted the same way; may be huge
 
     explicit Node(NodeKind k) : kind(k) {}
 };
@@ -99,7 +99,8 @@ struct PaintNode : Node {
 [[nodiscard]] Result<Solid> primitive(std::uint32_t index,
                                       std::span<const solids::Argument> arguments,
                                       SourceSpan span = {});
-/// The image of a solid. Error: singular when the map can not be inverted to working precision or is not finite.
+/// The image of a solid. A leaf or a transformation that stands at the origin and has no other owner is moved as it is,
+/// without a node of its own. Error: singular when the map can not be inverted to working precision or is not finite.
 [[nodiscard]] Result<Solid> transform(Solid child, const Affine& map, SourceSpan span = {});
 /// operands.size() >= 1. An operand that is itself a boolean stays shared; it is not opened up.
 [[nodiscard]] Solid boolean(Op op, std::vector<Solid> operands, SourceSpan span = {});

@@ -110,6 +110,34 @@ TEST_CASE("model: maps that can not be undone are refused") {
     CHECK(transform(sphere(1), scaling({1, -1e-9, 1})).has_value());
 }
 
+TEST_CASE("model: what stands at the origin and has one owner is moved within its own node") {
+    const Affine turn = rotation({0, 0, 1}, 30.0);
+    const SourceSpan span{0, 3, 9};
+    const auto moved = [&](Solid s, Vec3 by) {
+        return transform(std::move(s), translation(by), span).value();
+    };
+    const Solid leaf = moved(sphere(2), {1, 2, 3});
+    CHECK(leaf.node().kind == NodeKind::leaf);
+    CHECK(as_leaf(leaf.node()).solid.to_object.offset == Vec3{1, 2, 3});
+
+    const Solid turned = moved(transform(block({1, 2, 3}), turn).value(), {4, 5, 6});
+    CHECK(turned.node().kind == NodeKind::transform);
+    CHECK(turned.node().span == span);
+    CHECK(as_transform(turned.node()).map == translation({4, 5, 6}) * turn);
+    CHECK(as_transform(turned.node()).child.node().kind == NodeKind::leaf);
+
+    // What stands elsewhere already, has another owner, or is turned keeps its node.
+    const Solid twice = moved(moved(sphere(2), {1, 2, 3}), {0.1, 0.2, 0.3});
+    CHECK(twice.node().kind == NodeKind::transform);
+    CHECK(as_transform(twice.node()).map.offset == Vec3{0.1, 0.2, 0.3});
+    const Solid owned = sphere(2);
+    const Solid other = moved(owned, {1, 2, 3});
+    CHECK(as_leaf(owned.node()).solid.to_object.offset == Vec3{});
+    CHECK(as_transform(other.node()).child == owned);
+    CHECK(transform(sphere(2), turn).value().node().kind == NodeKind::transform);
+    CHECK(near(bounds(other), bounds(leaf)));
+}
+
 TEST_CASE("model: a primitive's own errors come through") {
     const auto wrong = primitive(index_of("sphere"), std::vector<solids::Argument>{-1.0});
     REQUIRE_FALSE(wrong.has_value());

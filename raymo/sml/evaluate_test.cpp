@@ -63,11 +63,15 @@ TEST_CASE("evaluate: a name lost in a broken statement is not called unknown") {
 }
 
 TEST_CASE("evaluate: leaves know the call that made them") {
-    const Run r = run("part p = sphere(3).move(1, 0, 0)\n");
+    const Run r = run("part p = sphere(3).scale(1, 2, 3)\npart q = sphere(3).move(1, 0, 0)\n");
     REQUIRE(r.outcome.ok);
-    const csg::Node& moved = r.outcome.scene.parts[0].solid.node();
-    CHECK(moved.span == SourceSpan{0, 9, 32});
-    CHECK(csg::as_transform(moved).child.node().span == SourceSpan{0, 9, 18});
+    const csg::Node& scaled = r.outcome.scene.parts[0].solid.node();
+    CHECK(scaled.span == SourceSpan{0, 9, 33});
+    CHECK(csg::as_transform(scaled).child.node().span == SourceSpan{0, 9, 18});
+    // A move within the leaf's own node.
+    const csg::Node& moved = r.outcome.scene.parts[1].solid.node();
+    CHECK(csg::as_leaf(moved).solid.to_object.offset == Vec3{1, 0, 0});
+    CHECK(moved.span == SourceSpan{0, 43, 52});
 }
 
 TEST_CASE("evaluate: a sum of many is one Boolean, and sharing costs nothing") {
