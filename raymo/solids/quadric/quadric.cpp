@@ -9,7 +9,7 @@
 namespace raymo::solids {
 
 Aabb Quadric::Kernel::bounds(const Affine& map) const {
-    const QuadricShape shape = analyse(form_);
+    const QuadricShape shape = analyse(form());
     Aabb box;
     for (int i = 0; i < 3; ++i) {
         const Vec3 n = map.linear.row[static_cast<std::size_t>(i)];
@@ -20,14 +20,14 @@ Aabb Quadric::Kernel::bounds(const Affine& map) const {
 }
 
 Vec3 Quadric::Kernel::normal(Vec3 p, std::uint16_t) const {
-    const Vec3 n = form_.half_gradient(p);
+    const Vec3 n = form().half_gradient(p);
     return max_norm(n) > 0.0 ? n : Vec3{0.0, 0.0, 1.0};  // the tip of a cone has no normal
 }
 
 Where Quadric::Kernel::where(Vec3 p, Vec3 e) const {
-    const double f = form_(p);
-    const double slack = 2.0 * dot(abs(form_.half_gradient(p)), e) + dot(e, abs(form_.a) * e) +
-                         8.0 * kUnitRoundoff * form_.magnitude(p);
+    const double f = form()(p);
+    const double slack = 2.0 * dot(abs(form().half_gradient(p)), e) + dot(e, abs(form().a) * e) +
+                         8.0 * kUnitRoundoff * form().magnitude(p);
     return f > slack ? Where::out : (f < -slack ? Where::in : Where::on);
 }
 
@@ -37,7 +37,7 @@ std::span<const std::string_view> Quadric::Kernel::faces() const {
 }
 
 std::optional<double> Quadric::Kernel::volume() const {
-    const QuadricShape shape = analyse(form_);
+    const QuadricShape shape = analyse(form());
     double product = 1.0;
     for (const double v : shape.value) {
         if (!(v > 0.0)) return std::nullopt;

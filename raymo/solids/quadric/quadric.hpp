@@ -10,6 +10,7 @@
 // coefficients. Ref: [Wijk86 2.3].
 #pragma once
 
+#include <memory>
 #include <optional>
 
 #include "raymo/solids/primitive.hpp"
@@ -20,8 +21,9 @@ namespace raymo::solids {
 struct Quadric {
     class Kernel {
     public:
-        Kernel() = default;
-        explicit Kernel(const QuadraticForm& form) : form_(form) {}
+        Kernel() : Kernel(QuadraticForm{}) {}
+        explicit Kernel(const QuadraticForm& form)
+            : form_(std::make_shared<const QuadraticForm>(form)) {}
         [[nodiscard]] Aabb bounds(const Affine& map) const;
         void spans(const LocalRay<double>& ray, SpanList& out) const;
         [[nodiscard]] Vec3 normal(Vec3 p, std::uint16_t face) const;
@@ -29,11 +31,15 @@ struct Quadric {
         [[nodiscard]] std::span<const std::string_view> faces() const;
         [[nodiscard]] std::optional<double> volume()
             const;  ///< of an ellipsoid, in the canonical frame; else none.
-        [[nodiscard]] const QuadraticForm& form() const { return form_; }
-        friend bool operator==(const Kernel&, const Kernel&) = default;
+        [[nodiscard]] const QuadraticForm& form() const { return *form_; }
+        [[nodiscard]] double bytes() const { return sizeof(QuadraticForm); }
+        friend bool operator==(const Kernel& a, const Kernel& b) {
+            return a.form_ == b.form_ || a.form() == b.form();
+        }
 
     private:
-        QuadraticForm form_;
+        /// Apart, for it is larger than all that other kernels have.
+        std::shared_ptr<const QuadraticForm> form_;
     };
 
     [[nodiscard]] static const Schema& schema();

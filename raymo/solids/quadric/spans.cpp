@@ -85,9 +85,9 @@ void Quadric::Kernel::spans(const LocalRay<double>& ray, SpanList& out) const {
     const Vec3 o{ray.ox, ray.oy, ray.oz};
     const Vec3 d{ray.dx, ray.dy, ray.dz};
     const Vec3 e{ray.ex, ray.ey, ray.ez};
-    const Mat3 size = abs(form_.a);
-    const Vec3 ad = form_.a * d;
-    const Vec3 g = form_.half_gradient(o);
+    const Mat3 size = abs(form().a);
+    const Vec3 ad = form().a * d;
+    const Vec3 g = form().half_gradient(o);
 
     Line line{};
     line.length = std::sqrt(ray.dd);
@@ -97,14 +97,14 @@ void Quadric::Kernel::spans(const LocalRay<double>& ray, SpanList& out) const {
     const double q = dot(e, size * e);
     const double u = 8.0 * kUnitRoundoff;
     const Vec3 size_d = size * abs(d);
-    line.e0 = 2.0 * g0 + q + u * form_.magnitude(o);
+    line.e0 = 2.0 * g0 + q + u * form().magnitude(o);
     line.e1 = 2.0 * (g1 + (g0 + q) * line.length) + 2.0 * u * dot(size_d, abs(o)) +
-              2.0 * u * dot(abs(form_.b), abs(d));
+              2.0 * u * dot(abs(form().b), abs(d));
     line.e2 = (2.0 * g1 + q * line.length) * line.length + u * dot(size_d, abs(d));
 
     const double a = dot(d, ad);
     const double b = dot(d, g);
-    const double c = form_(o);
+    const double c = form()(o);
     if (!(std::fabs(a) > line.e2)) {
         if (!(2.0 * std::fabs(b) > line.e1)) {
             constant_spans(line, c, 2.0 * b, a, out);
@@ -122,8 +122,8 @@ void Quadric::Kernel::spans(const LocalRay<double>& ray, SpanList& out) const {
         // E at this very place; once more for how it may differ at the true root.
         const double place = std::max(1.0, std::fabs(s) * line.length / 1.75);
         const Vec3 x = o + d * s;
-        double slack = 2.0 * dot(abs(form_.half_gradient(x)), e) * place + q * place * place +
-                       u * form_.magnitude(x);
+        double slack = 2.0 * dot(abs(form().half_gradient(x)), e) * place + q * place * place +
+                       u * form().magnitude(x);
         double error = slack / std::sqrt(std::max(disc, std::fabs(a) * slack));
         slack += 4.0 * g1 * error * place;
         error = slack / std::sqrt(std::max(disc, std::fabs(a) * slack));

@@ -20,6 +20,7 @@ namespace {
 
 constexpr std::uint16_t kStart = 0;
 constexpr std::uint16_t kEnd = 1;
+constexpr Vec3 kStartNormal{0.0, -1.0, 0.0};  ///< of the cut where the turn starts, outwards
 
 SpanEnd entry(const LaneSpans<double, bool, 1>& s) {
     return {s.enter[0], s.enter_error[0], static_cast<std::uint16_t>(s.enter_face[0])};
@@ -48,13 +49,13 @@ curves::Curve closed_along_axis(const curves::Curve& open) {
 Revolve::Kernel::Kernel(curves::RegionPtr region, double angle)
     : region_(std::move(region)), angle_(angle) {
     const SinCos at = sin_cos_degrees(angle);
-    end_ = {-at.sin, at.cos, 0.0};
+    end_ = {-at.sin, at.cos};
 }
 
 void Revolve::Kernel::spans(const LocalRay<double>& ray, SpanList& out) const {
     LaneSpans<double, bool, kSweptSpans> lanes;
     bool left_over = false;
-    const int count = revolve_spans(*region_, angle_, end_, ray, true, lanes, left_over);
+    const int count = revolve_spans(*region_, angle_, end_normal(), ray, true, lanes, left_over);
     if (left_over) {
         spans_in_full(ray, out);
     } else {
@@ -98,7 +99,7 @@ void Revolve::Kernel::spans_in_full(const LocalRay<double>& ray, SpanList& out) 
         // As far as the solid may reach: ends at infinity have no error to be computed with.
         clip_enter<double>(w, -4.0 / length, 0.0, kStart);
         clip_exit<double>(w, 4.0 / length, 0.0, kEnd);
-        clip_side(w, ray, -start_.x, -start_.y, kStart);
+        clip_side(w, ray, -kStartNormal.x, -kStartNormal.y, kStart);
         clip_side(w, ray, -end_.x, -end_.y, kEnd);
         close_window(w, ray, ray.dd > 0.0, 0, gap);
     }
@@ -107,7 +108,7 @@ void Revolve::Kernel::spans_in_full(const LocalRay<double>& ray, SpanList& out) 
         [&](const SpanEnd& enter, const SpanEnd& exit) {
             Window<double> w = window_of(enter, exit);
             if (!is_whole() && convex) {
-                clip_side(w, ray, start_.x, start_.y, kStart);
+                clip_side(w, ray, kStartNormal.x, kStartNormal.y, kStart);
                 clip_side(w, ray, end_.x, end_.y, kEnd);
                 emit(w);
                 return;
@@ -152,14 +153,14 @@ Aabb Revolve::Kernel::bounds(const Affine& map) const {
 
 Vec3 Revolve::Kernel::normal(Vec3 p, std::uint16_t face) const {
     Triple<double> n{p.x, p.y, p.z};
-    if (revolve_normals(*region_, end_, static_cast<double>(face), true, n))
+    if (revolve_normals(*region_, end_normal(), static_cast<double>(face), true, n))
         return normal_in_full(p, face);
     return {n.x, n.y, n.z};
 }
 
 Vec3 Revolve::Kernel::normal_in_full(Vec3 p, std::uint16_t face) const {
-    if (face == kStart) return start_;
-    if (face == kEnd) return end_;
+    if (face == kStart) return kStartNormal;
+    if (face == kEnd) return end_normal();
     const std::uint32_t wall = face - kFirstWall;
     const double r = std::hypot(p.x, p.y);
     Vec2 n = region_->normal({r, p.z}, wall / 2, kMostWalls);
@@ -176,8 +177,8 @@ Where Revolve::Kernel::where(Vec3 p, Vec3 e) const {
     bool on = side == curves::Side::on;
     if (!is_whole()) {
         const double slack = off + 8.0 * kUnitRoundoff * r;
-        const double a = dot(start_, p);
-        const double b = dot(end_, p);
+        const double a = dot(kStartNormal, p);
+        const double b = dot(end_normal(), p);
         // Outside of one, or of both.
         const double depth = angle_ <= 180.0 ? std::max(a, b) : std::min(a, b);
         if (depth > slack) return Where::out;

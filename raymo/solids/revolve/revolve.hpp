@@ -8,6 +8,7 @@
 #pragma once
 
 #include "raymo/curves/region.hpp"
+#include "raymo/math/vec2.hpp"
 #include "raymo/solids/primitive.hpp"
 
 namespace raymo::solids {
@@ -37,7 +38,7 @@ struct Revolve {
         [[nodiscard]] double bytes() const { return region_->bytes(); }
         [[nodiscard]] double angle() const { return angle_; }
         /// Of the cut where the turn ends, outwards.
-        [[nodiscard]] Vec3 end_normal() const { return end_; }
+        [[nodiscard]] Vec3 end_normal() const { return {end_.x, end_.y, 0.0}; }
 
         friend bool operator==(const Kernel& a, const Kernel& b) {
             return a.angle_ == b.angle_ && (a.region_ == b.region_ || *a.region_ == *b.region_);
@@ -48,7 +49,7 @@ struct Revolve {
 
         curves::RegionPtr region_;
         double angle_ = 360.0;
-        Vec3 start_{0.0, -1.0, 0.0}, end_;  ///< normals of the cuts, outwards
+        Vec2 end_;  ///< normal of the cut where the turn ends, outwards
     };
 
     [[nodiscard]] static const Schema& schema();
