@@ -57,6 +57,15 @@ Mat3 inverse(const Mat3& m) {
 
 bool is_invertible(const Mat3& m) {
     if (m == Mat3{}) return true;
+    // Most maps turn: rows of about length 1, far from lying in a plane.
+    const auto is_about_1 = [](Vec3 v) {
+        const double size = max_norm(v);
+        return size > 0.5 && size < 2.0;
+    };
+    if (is_about_1(m.row[0]) && is_about_1(m.row[1]) && is_about_1(m.row[2]) &&
+        std::fabs(determinant(m)) > 0x1p-40) {
+        return true;
+    }
     Mat3 s;
     bool is_moderate = true;
     for (std::size_t i = 0; i < 3; ++i) {

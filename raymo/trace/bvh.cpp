@@ -20,22 +20,18 @@ constexpr float kLeafCost = 4.0F;
 using Four = float __attribute__((vector_size(16)));
 using FourWhole = std::int32_t __attribute__((vector_size(16)));
 
-Four load(const float* from) {
-    Four out;
-    std::memcpy(&out, from, sizeof out);
-    return out;
-}
-
+/// A box to be put into the tree.
 struct Ref {
-    Boxf box;
-    std::uint32_t id;
+    Four lo;  ///< and its number, in the fourth place
+    Four hi;
 
-    [[nodiscard]] Four lo() const { return load(box.lo.data()); }
-    /// The number of the ref stands in the fourth place.
-    [[nodiscard]] Four hi() const { return load(box.hi.data()); }
-    [[nodiscard]] float centre2(std::size_t axis) const { return box.lo[axis] + box.hi[axis]; }
+    /// The fourth place of `hi` keeps sums away from numbers too small to be computed with fast.
+    Ref(const Boxf& box, std::uint32_t id)
+        : lo{box.lo[0], box.lo[1], box.lo[2], std::bit_cast<float>(id)},
+          hi{box.hi[0], box.hi[1], box.hi[2], 1.0F} {}
+    [[nodiscard]] std::uint32_t id() const { return std::bit_cast<std::uint32_t>(float{lo[3]}); }
+    [[nodiscard]] Four centre2() const { return lo + hi; }
 };
-static_assert(offsetof(Boxf, hi) == 12 && offsetof(Ref, id) == 24);
 
 struct Bounds {
     Four lo{kInf, kInf, kInf, kInf};
@@ -69,18 +65,17 @@ struct Range {
 struct Bins {
     std::array<Bounds, kBins> bounds;
     std::array<std::uint32_t, kBins> count;
-    std::uint32_t used;  ///< a bit for each bin that holds refs; the others hold nothing of meaning
+    std::uint32_t used;  ///< a bit for each bin that holds refs
 
+    void clear() {
+        bounds.fill({});
+        count.fill(0);
+        used = 0;
+    }
     void add(std::size_t b, Four lo, Four hi) {
-        const std::uint32_t bit = 1U << b;
-        if ((used & bit) != 0) {
-            bounds[b].add(lo, hi);
-            ++count[b];
-        } else {
-            bounds[b] = {lo, hi};
-            count[b] = 1;
-            used |= bit;
-        }
+        bounds[b].add(lo, hi);
+        ++count[b];
+        used |= 1U << b;
     }
 };
 
@@ -88,14 +83,15 @@ class Builder {
 public:
     explicit Builder(const std::vector<Boxf>& boxes) {
         refs_.reserve(boxes.size());
+        aside_.resize(boxes.size(), Ref({}, 0));
         for (std::size_t i = 0; i < boxes.size(); ++i) {
-            refs_.push_back({boxes[i], static_cast<std::uint32_t>(i)});
+            refs_.emplace_back(boxes[i], static_cast<std::uint32_t>(i));
         }
     }
 
     Bvh build() {
         Bvh out;
-        out.nodes.reserve(refs_.size() / 4 + 1);
+        out.nodes.reserve(refs_.size() * 2 / 5 + 1);
         out.nodes.emplace_back();
         std::vector<std::pair<std::uint32_t, Range>> todo;
         todo.emplace_back(0U, measure(0, static_cast<std::uint32_t>(refs_.size())));
@@ -126,7 +122,7 @@ public:
             out.nodes[index] = node;
         }
         out.order.reserve(refs_.size());
-        for (const Ref& ref : refs_) out.order.push_back(ref.id);
+        for (const Ref& ref : refs_) out.order.push_back(ref.id());
         return out;
     }
 
@@ -137,10 +133,8 @@ private:
         r.end = end;
         for (std::uint32_t i = begin; i < end; ++i) {
             const Ref& ref = refs_[i];
-            const Four lo = ref.lo();
-            const Four hi = ref.hi();
-            r.bounds.add(lo, hi);
-            const Four centre = lo + hi;
+            r.bounds.add(ref.lo, ref.hi);
+            const Four centre = ref.centre2();
             r.centres.add(centre, centre);
         }
         return r;
@@ -175,6 +169,7 @@ private:
     /// Splits `range` in two; false when it is better left whole.
     bool split(Range& range, Range& right) {
         const std::uint32_t n = range.size();
+        if (n == 2) return split_pair(range, right);
         float best = kInf;
         std::size_t best_axis = 0;
         int best_plane = 0;
@@ -220,16 +215,37 @@ private:
         if (best < kInf) {
             const float lo = range.centres.lo[best_axis];
             const float scale = to_bin[best_axis];
-            const auto it = std::partition(
-                refs_.begin() + range.begin, refs_.begin() + range.end, [&](const Ref& ref) {
-                    return static_cast<int>((ref.centre2(best_axis) - lo) * scale) <= best_plane;
-                });
-            middle = static_cast<std::uint32_t>(it - refs_.begin());
+            // Where a ref goes can not be foretold, so it is written to both sides, and one of them moves on.
+            for (std::uint32_t i = range.begin; i < range.end; ++i) {
+                const Ref ref = refs_[i];
+                const auto bin = static_cast<int>((ref.centre2()[best_axis] - lo) * scale);
+                refs_[middle] = ref;
+                aside_[i - middle] = ref;
+                middle += static_cast<std::uint32_t>(bin - best_plane - 1) >> 31U;
+            }
+            std::copy_n(aside_.begin(), range.end - middle, refs_.begin() + middle);
         }
         if (middle == range.begin || middle == range.end)
             middle = range.begin + n / 2;  // all centres equal
         right = measure(middle, range.end);
         range = measure(range.begin, middle);
+        return true;
+    }
+
+    /// The same for two refs, half of all that is split: their only cut needs no bins.
+    bool split_pair(Range& range, Range& right) {
+        Ref* const pair = &refs_[range.begin];
+        const auto is_apart = [&](std::size_t axis) {
+            return range.centres.hi[axis] > range.centres.lo[axis];
+        };
+        const auto around = [](const Ref& ref) { return Bounds{ref.lo, ref.hi}; };
+        const std::size_t axis = is_apart(0) ? 0 : is_apart(1) ? 1 : 2;
+        const float area = range.bounds.half_area();
+        const float best = around(pair[0]).half_area() + around(pair[1]).half_area();
+        if (!is_apart(axis) || !(kLeafCost * best + area < kLeafCost * area * 2.0F)) return false;
+        if (pair[1].centre2()[axis] < pair[0].centre2()[axis]) std::swap(pair[0], pair[1]);
+        right = measure(range.begin + 1, range.end);
+        range = measure(range.begin, range.begin + 1);
         return true;
     }
 
@@ -241,11 +257,11 @@ private:
             const float extent = range.centres.hi[axis] - range.centres.lo[axis];
             const float scale = static_cast<float>(kBins) * 0.99999F / extent;
             if (extent > 0.0F && std::isfinite(scale)) to_bin[axis] = scale;
-            bins_[axis].used = 0;
+            bins_[axis].clear();
         }
         for (std::uint32_t i = range.begin; i < range.end; ++i) {
-            const Four lo = refs_[i].lo();
-            const Four hi = refs_[i].hi();
+            const Four lo = refs_[i].lo;
+            const Four hi = refs_[i].hi;
             const auto place =
                 __builtin_convertvector((lo + hi - range.centres.lo) * to_bin, FourWhole);
             for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -256,6 +272,7 @@ private:
     }
 
     std::vector<Ref> refs_;
+    std::vector<Ref> aside_;  ///< room for the right side of a split
     std::array<Range, BvhNode::kWidth> pieces_;
     std::array<Bins, 3> bins_;
 };

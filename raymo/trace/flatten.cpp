@@ -138,10 +138,10 @@ Result<void> Flattener::expand(Work& work, std::span<const csg::Solid> parts, in
     if (!share_) {
         double leaves = 0.0;
         for (const csg::Solid& part : parts) leaves += part.node().leaf_count;
-        // Every path is walked: there will be so many leaves, and about as many Booleans at most.
+        // Every path is walked: there will be so many leaves, and mostly not half as many Booleans.
         const auto count = static_cast<std::size_t>(leaves);
         work.pending.reserve(count);
-        work.items.reserve(2 * count + parts.size());
+        work.items.reserve(count + count / 2 + parts.size());
         tables_.frames().reserve(count);
     }
     for (const csg::Solid& part : parts) {
@@ -219,22 +219,22 @@ Frame frame_of(const Affine& map, std::uint32_t type, std::uint32_t index) {
         for (int c = 0; c < 3; ++c) {
             const Vec3 column = map.linear.column(c);
             const Long entry = residual(static_cast<int>(r) == c ? 1.0 : 0.0, row[r], column);
-            const Long size = std::fabs(static_cast<Long>(row[r].x) * column.x) +
-                              std::fabs(static_cast<Long>(row[r].y) * column.y) +
-                              std::fabs(static_cast<Long>(row[r].z) * column.z);
-            sum += std::fabs(entry) + 4 * kLong * size;
+            // Rounding of the entry; that of its own is nothing beside it.
+            const double size = dot(abs(row[r]), abs(column));
+            sum += std::fabs(entry) + 4.5 * kLong * size;
         }
         frame.error[static_cast<int>(r)] = 2.0 * static_cast<double>(sum) + 8.0 * kUnitRoundoff;
     }
     // The greatest stretch is that of a row when the rows are orthogonal; the root of the sum of squares is a bound.
-    const double long_row = std::max({norm(row[0]), norm(row[1]), norm(row[2])});
+    frame.row_length = {norm(row[0]), norm(row[1]), norm(row[2])};
+    const double long_row = max_norm(frame.row_length);
+    const Vec3 unit[3] = {row[0] / long_row, row[1] / long_row, row[2] / long_row};
     const auto orthogonal = [&](std::size_t a, std::size_t b) {
-        return std::fabs(dot(row[a] / long_row, row[b] / long_row)) <= 0x1p-40;
+        return std::fabs(dot(unit[a], unit[b])) <= 0x1p-40;
     };
-    frame.stretch =
-        orthogonal(0, 1) && orthogonal(1, 2) && orthogonal(2, 0)
-            ? 1.0
-            : norm({norm(row[0]) / long_row, norm(row[1]) / long_row, norm(row[2]) / long_row});
+    frame.stretch = orthogonal(0, 1) && orthogonal(1, 2) && orthogonal(2, 0)
+                        ? 1.0
+                        : norm(frame.row_length / long_row);
     return frame;
 }
 
@@ -438,11 +438,8 @@ void Flattener::normalise(Work& work, CompiledSolid& out) {
 
     const auto first_frame = static_cast<std::uint32_t>(data_.frames.size());
     for (Frame& frame : tables_.frames()) {
-        for (int i = 0; i < 3; ++i) {
-            Vec3& row = frame.to_local.row[static_cast<std::size_t>(i)];
-            row *= 1.0 / out.scale;
-            frame.row_length[i] = norm(row);
-        }
+        for (Vec3& row : frame.to_local.row) row *= 1.0 / out.scale;
+        frame.row_length *= 1.0 / out.scale;
     }
     if (data_.frames.empty()) {
         data_.frames = std::move(tables_.frames());

@@ -29,12 +29,24 @@ struct Placement {
             out.linear_error = linear_error;
             return out;
         }
+        if (is_move()) {
+            out.map.linear = inner.linear;
+            for (std::size_t i = 0; i < 3; ++i)
+                out.linear_error.row[i] = abs(inner.linear.row[i]) * kEntry;
+            return out;
+        }
         out.map.linear = map.linear * inner.linear;
         const Mat3 inner_size = abs(inner.linear);
         out.linear_error = linear_error * inner_size;
         const Mat3 rounding = size * inner_size;
         for (std::size_t i = 0; i < 3; ++i) out.linear_error.row[i] += rounding.row[i] * kEntry;
         return out;
+    }
+
+private:
+    /// Turns and scales nothing, for certain.
+    [[nodiscard]] bool is_move() const {
+        return map.linear == Mat3{} && linear_error == Mat3::diagonal(0, 0, 0);
     }
 };
 

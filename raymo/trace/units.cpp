@@ -293,7 +293,7 @@ private:
     }
 
     std::uint32_t plant_units(std::vector<Leaf>& planted) {
-        const Bvh tree = build_bvh(unit_boxes_);
+        Bvh tree = build_bvh(unit_boxes_);
         std::vector<std::uint32_t> place;  // of each unit's first leaf, in the order of the tree
         place.reserve(units_.size() + 1);
         for (const std::uint32_t u : tree.order) {
@@ -312,7 +312,7 @@ private:
                          data_.is_transparent(data_.looks[leaf.look].material) &&
                          stands_apart(tree, tree.order[i]);
         }
-        return append(tree, [&](std::uint32_t unit) { return place[unit]; });
+        return append(std::move(tree), [&](std::uint32_t unit) { return place[unit]; });
     }
     /// Whether the box of a unit meets that of no other.
     [[nodiscard]] bool stands_apart(const Bvh& tree, std::uint32_t unit) const {
@@ -339,11 +339,11 @@ private:
         std::vector<Boxf> boxes;
         boxes.reserve(product.cutters.size());
         for (const std::uint32_t leaf : product.cutters) boxes.push_back(boxes_[leaf]);
-        const Bvh tree = build_bvh(boxes);
+        Bvh tree = build_bvh(boxes);
         const auto first = static_cast<std::uint32_t>(planted.size());
         for (const std::uint32_t i : tree.order)
             planted.push_back(solid_.leaves[product.cutters[i]]);
-        return append(tree, [first](std::uint32_t leaf) { return first + leaf; });
+        return append(std::move(tree), [first](std::uint32_t leaf) { return first + leaf; });
     }
 
     /// Tells the first leaf of a unit where the cutters of its product are, and the product where its core is.
@@ -359,9 +359,9 @@ private:
 
     /// Adds a tree to the nodes, and returns its root. place(i): the leaf where range number i begins.
     template <class Place>
-    std::uint32_t append(const Bvh& tree, Place&& place) {
+    std::uint32_t append(Bvh tree, Place&& place) {
         const auto base = static_cast<std::uint32_t>(solid_.nodes.size());
-        for (BvhNode node : tree.nodes) {
+        for (BvhNode& node : tree.nodes) {
             for (int c = 0; c < BvhNode::kWidth; ++c) {
                 if (node.count[c] == 0) {
                     node.ref[c] += base;
@@ -372,7 +372,11 @@ private:
                 node.ref[c] = begin;
                 node.count[c] = static_cast<std::uint8_t>(end - begin);
             }
-            solid_.nodes.push_back(node);
+        }
+        if (base == 0) {
+            solid_.nodes = std::move(tree.nodes);
+        } else {
+            solid_.nodes.insert(solid_.nodes.end(), tree.nodes.begin(), tree.nodes.end());
         }
         return base;
     }
