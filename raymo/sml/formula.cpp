@@ -266,11 +266,14 @@ private:
 
 void make_formulas(Program& program) { Maker(program).run(); }
 
+// A number that is not finite stays so through + - *, so it is looked for only where it could get lost: where it divides, is
+// kept or goes into a function, which need not use it, and at the end.
 bool compute(std::span<const Formula> formulas, const Formula& formula,
              std::span<const Value> globals, double* frame) {
     double* top = frame + formula.locals;
     double x =
         0.0;  // in hand, so that a step need not wait for the memory that the one before wrote
+    const auto can_divide = [](double y) { return y != 0.0 && std::isfinite(y); };
     for (const FormulaStep& step : formula.steps) {
         switch (step.kind) {
             case Kind::number:
@@ -289,6 +292,7 @@ bool compute(std::span<const Formula> formulas, const Formula& formula,
                 break;
             }
             case Kind::keep:
+                if (!std::isfinite(x)) return false;
                 frame[step.index] = x;
                 x = *--top;
                 break;
@@ -297,7 +301,9 @@ bool compute(std::span<const Formula> formulas, const Formula& formula,
                 const Formula& called = formulas[step.index];
                 *top++ = x;
                 top -= called.parameters;
-                if (!compute(formulas, called, globals, top)) return false;
+                const bool good = std::all_of(top, top + called.parameters,
+                                              [](double y) { return std::isfinite(y); });
+                if (!good || !compute(formulas, called, globals, top)) return false;
                 x = *top;
                 break;
             }
@@ -305,54 +311,60 @@ bool compute(std::span<const Formula> formulas, const Formula& formula,
                 x = -x;
                 break;
             case Kind::add:
-                if (!quick_arithmetic(Operator::add, *--top, x, x)) return false;
+                x = *--top + x;
                 break;
             case Kind::add_number:
-                if (!quick_arithmetic(Operator::add, x, step.number, x)) return false;
+                x += step.number;
                 break;
             case Kind::add_local:
-                if (!quick_arithmetic(Operator::add, x, frame[step.index], x)) return false;
+                x += frame[step.index];
                 break;
             case Kind::subtract:
-                if (!quick_arithmetic(Operator::subtract, *--top, x, x)) return false;
+                x = *--top - x;
                 break;
             case Kind::subtract_number:
-                if (!quick_arithmetic(Operator::subtract, x, step.number, x)) return false;
+                x -= step.number;
                 break;
             case Kind::subtract_local:
-                if (!quick_arithmetic(Operator::subtract, x, frame[step.index], x)) return false;
+                x -= frame[step.index];
                 break;
             case Kind::multiply:
-                if (!quick_arithmetic(Operator::multiply, *--top, x, x)) return false;
+                x = *--top * x;
                 break;
             case Kind::multiply_number:
-                if (!quick_arithmetic(Operator::multiply, x, step.number, x)) return false;
+                x *= step.number;
                 break;
             case Kind::multiply_local:
-                if (!quick_arithmetic(Operator::multiply, x, frame[step.index], x)) return false;
+                x *= frame[step.index];
                 break;
             case Kind::divide:
-                if (!quick_arithmetic(Operator::divide, *--top, x, x)) return false;
+                if (!can_divide(x)) return false;
+                x = *--top / x;
                 break;
             case Kind::divide_number:
-                if (!quick_arithmetic(Operator::divide, x, step.number, x)) return false;
+                if (!can_divide(step.number)) return false;
+                x /= step.number;
                 break;
             case Kind::divide_local:
-                if (!quick_arithmetic(Operator::divide, x, frame[step.index], x)) return false;
+                if (!can_divide(frame[step.index])) return false;
+                x /= frame[step.index];
                 break;
             case Kind::modulo:
-                if (!quick_arithmetic(Operator::modulo, *--top, x, x)) return false;
+                if (!can_divide(x)) return false;
+                x = remainder_of(*--top, x);
                 break;
             case Kind::modulo_number:
-                if (!quick_arithmetic(Operator::modulo, x, step.number, x)) return false;
+                if (!can_divide(step.number)) return false;
+                x = remainder_of(x, step.number);
                 break;
             case Kind::modulo_local:
-                if (!quick_arithmetic(Operator::modulo, x, frame[step.index], x)) return false;
+                if (!can_divide(frame[step.index])) return false;
+                x = remainder_of(x, frame[step.index]);
                 break;
         }
     }
     frame[0] = x;
-    return true;
+    return std::isfinite(x);
 }
 
 }  // namespace raymo::sml
