@@ -7,7 +7,7 @@
 
 #include "apps/raymo/commands/commands.hpp"
 #include "apps/raymo/system/executor.hpp"
-#include "apps/raymo/system/large_pages.hpp"
+#include "apps/raymo/system/heap.hpp"
 #include "apps/raymo/system/memory_limit.hpp"
 #include "apps/raymo/text.hpp"
 #include "apps/raymo/vocabulary.hpp"
@@ -122,7 +122,7 @@ int run(const Args& args, Console& console) {
     console.color = wants_color(options->color, console);
     console.quiet = options->quiet;
     const double limit = options->memory_limit.value_or(default_memory_limit());
-    use_large_pages(limit);
+    keep_heap();
     limit_memory(limit, options->threads > 0 ? options->threads : available_processors());
     return console.finish(run_command(*options, console));
 }
