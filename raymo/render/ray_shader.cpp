@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace raymo::render {
 namespace {
@@ -76,33 +77,46 @@ void RayShader::answer(const EyeBatch& eyes, Answers& answers) {
     eyes_ = &eyes;
     answers_ = &answers;
     counts_.primary += eyes.count;
+    order_.clear();
+    Paths paths;
     for (std::size_t first = 0; first < eyes.count; first += kRays) {
         const RayPacket& rays = eyes.rays[first / kRays];
         const LaneBits lanes = trace::first_lanes(std::min<std::size_t>(eyes.count - first, kRays));
-        const LaneBits found = tracer_.first_hits(rays, lanes, hits_);
+        const HitPacket& hits = order_.next();
+        const LaneBits found = tracer_.first_hits(rays, lanes, order_.next());
         if (found != lanes) shade_background(stage_->around, rays.d, spots_.light);
-        Paths paths;
-        std::fill_n(paths.name, kRays, 1U);
-        std::fill_n(paths.depth, kRays, 0U);
         for (LaneBits rest = lanes; rest != 0; rest &= rest - 1) {
             const int i = lowest_lane(rest);
             const std::size_t owner = first + static_cast<std::size_t>(i);
             const bool met = (found >> i & 1U) != 0;
             answers.light[owner] = met ? Colour{} : lane_of(spots_.light, i);
             if (eyes.signatures)
-                answers.signature[owner] = met ? signature_of(hits_, i) : Signature{};
-            paths.owner[i] = static_cast<std::uint32_t>(owner);
+                answers.signature[owner] = met ? signature_of(hits, i) : Signature{};
         }
-        if (found == 0) continue;
-        std::fill_n(&spots_.weight[0][0], 3 * kRays, 1.0);
-        shade(rays, found, paths);
-        while (views_.size() >= kRays) follow(views_);
-        while (images_.size() >= kRays) {
-            follow(images_);
-            while (views_.size() >= kRays) follow(views_);
-        }
+        if (found == 0 || order_.add(first / kRays, found)) continue;
+        std::iota(paths.owner, paths.owner + kRays, static_cast<std::uint32_t>(first));
+        shade_met(rays.d, hits, found, paths);
+    }
+    order_.sort();
+    alignas(64) double view[3][kRays];
+    for (std::size_t first = 0; first < order_.size(); first += kRays) {
+        const LaneBits lanes = order_.take(first, eyes.rays.data(), own_hits_, view, paths.owner);
+        shade_met(view, own_hits_, lanes, paths);
     }
     while (!views_.empty() || !images_.empty()) follow(views_.empty() ? images_ : views_);
+}
+
+void RayShader::shade_met(const double (&view)[3][kRays], const HitPacket& hits, LaneBits lanes,
+                          Paths& paths) {
+    std::fill_n(paths.name, kRays, 1U);
+    std::fill_n(paths.depth, kRays, 0U);
+    std::fill_n(&spots_.weight[0][0], 3 * kRays, 1.0);
+    shade(view, hits, lanes, paths);
+    while (views_.size() >= kRays) follow(views_);
+    while (images_.size() >= kRays) {
+        follow(images_);
+        while (views_.size() >= kRays) follow(views_);
+    }
 }
 
 void RayShader::follow(RayStack& stack) {
@@ -110,7 +124,7 @@ void RayShader::follow(RayStack& stack) {
     Paths paths;
     const LaneBits lanes = stack.pop(rays, spots_.weight, paths);
     counts_.secondary += static_cast<std::uint64_t>(trace::lane_count(lanes));
-    const LaneBits found = tracer_.first_hits(rays, lanes, hits_);
+    const LaneBits found = tracer_.first_hits(rays, lanes, own_hits_);
     if (found != lanes) {
         shade_background(stage_->around, rays.d, spots_.light);
         for (LaneBits rest = lanes & ~found; rest != 0; rest &= rest - 1) {
@@ -118,7 +132,7 @@ void RayShader::follow(RayStack& stack) {
             answers_->light[paths.owner[i]] += lane_of(spots_.weight, i) * lane_of(spots_.light, i);
         }
     }
-    if (found != 0) shade(rays, found, paths);
+    if (found != 0) shade(rays.d, own_hits_, found, paths);
 }
 
 /// The surfaces that were met.
@@ -131,17 +145,17 @@ void RayShader::look_up(LaneBits lanes) {
     for (LaneBits rest = lanes; rest != 0;) {
         // All that met one material between the same media.
         const int i = lowest_lane(rest);
-        LaneBits alike = met_alike(hits_, i) & rest;
+        LaneBits alike = met_alike(*hits_, i) & rest;
         rest &= ~alike;
         if (alike == lanes) alike = trace::kAllLanes;
-        const Surface* material = &surfaces_[hits_.material[i]];
-        const Surface& before = surfaces_[hits_.medium_before[i]];
+        const Surface* material = &surfaces_[hits_->material[i]];
+        const Surface& before = surfaces_[hits_->medium_before[i]];
         if (before.absorbs) absorbed |= alike;
         if (material->transparent) {
-            const Surface& after = surfaces_[hits_.medium_after[i]];
+            const Surface& after = surfaces_[hits_->medium_after[i]];
             // Where something opaque starts right behind a transparent surface, that is what is
             // seen.
-            if (hits_.medium_after[i] != Hit::kAir && !after.transparent) {
+            if (hits_->medium_after[i] != Hit::kAir && !after.transparent) {
                 material = &after;
             } else {
                 fill(spots_.index, alike, after.index / before.index);
@@ -161,13 +175,15 @@ void RayShader::look_up(LaneBits lanes) {
         const int i = lowest_lane(rest);
         set_lane(spots_.weight, i,
                  lane_of(spots_.weight, i) *
-                     transmittance(surfaces_[hits_.medium_before[i]], hits_.t[i]));
+                     transmittance(surfaces_[hits_->medium_before[i]], hits_->t[i]));
     }
 }
 
-void RayShader::shade(const RayPacket& rays, LaneBits lanes, const Paths& paths) {
+void RayShader::shade(const double (&view)[3][kRays], const HitPacket& hits, LaneBits lanes,
+                      const Paths& paths) {
+    hits_ = &hits;
     look_up(lanes);
-    shade_surroundings(stage_->around, rays.d, hits_, lanes, spots_, reflected_, refracted_);
+    shade_surroundings(stage_->around, view, hits, lanes, spots_, reflected_, refracted_);
     go_on(reflected_, paths, 0);
     go_on(refracted_, paths, 1);
     const double least = kUnseen * stage_->min_weight;
@@ -176,11 +192,11 @@ void RayShader::shade(const RayPacket& rays, LaneBits lanes, const Paths& paths)
         if (lamp.is_area()) {
             for (LaneBits rest = spots_.lit; rest != 0; rest &= rest - 1) {
                 const int i = lowest_lane(rest);
-                light_softly(lamp, rays, i, paths.owner[i], paths.name[i]);
+                light_softly(lamp, view, i, paths.owner[i], paths.name[i]);
             }
             continue;
         }
-        shade_by_lamp(lamp, rays.d, hits_, spots_.lit, spots_, least, gains_, shadows_);
+        shade_by_lamp(lamp, view, hits, spots_.lit, spots_, least, gains_, shadows_);
         if (gains_.lanes == 0) continue;
         if (lamp.shadows) dim(shadows_, -1);
         add_gains(gains_, spots_);
@@ -208,12 +224,12 @@ void RayShader::go_on(const Onward& onward, const Paths& paths, std::uint32_t tu
         const int i = lowest_lane(rest);
         answers_->light[paths.owner[i]] += lane_of(onward.weight, i) * stage_->around.ambient;
     }
-    if (going != 0) (turn == 0 ? images_ : views_).push(hits_, onward, going, paths, turn);
+    if (going != 0) (turn == 0 ? images_ : views_).push(*hits_, onward, going, paths, turn);
 }
 
 /// The lamp's light by several samples of its area; the fewer, the less the hit counts in the picture.
-void RayShader::light_softly(const Lamp& lamp, const RayPacket& rays, int lane, std::uint32_t owner,
-                             std::uint32_t name) {
+void RayShader::light_softly(const Lamp& lamp, const double (&view)[3][kRays], int lane,
+                             std::uint32_t owner, std::uint32_t name) {
     const double share = std::min(max_norm(lane_of(spots_.weight, lane)), 1.0) / eyes_->samples;
     const auto samples = static_cast<std::uint32_t>(std::max(std::ceil(lamp.samples * share), 1.0));
     const double part = 1.0 / samples;
@@ -230,7 +246,7 @@ void RayShader::light_softly(const Lamp& lamp, const RayPacket& rays, int lane, 
             u[k] = place.u;
             v[k] = place.v;
         }
-        shade_by_lamp_places(lamp, rays.d, hits_, lane, trace::first_lanes(count), u, v, spots_,
+        shade_by_lamp_places(lamp, view, *hits_, lane, trace::first_lanes(count), u, v, spots_,
                              least, gains_, shadows_);
         if (gains_.lanes == 0) continue;
         if (lamp.shadows) dim(shadows_, lane);
@@ -259,7 +275,7 @@ void RayShader::filter(RayPacket& shadows, int hit) {
     const Surface* around = &surfaces_[medium];
     for (LaneBits rest = gains_.lanes; rest != 0; rest &= rest - 1) {
         const int i = lowest_lane(rest);
-        const csg::MaterialId id = hits_.medium_before[hit < 0 ? i : hit];
+        const csg::MaterialId id = hits_->medium_before[hit < 0 ? i : hit];
         if (id != medium) around = &surfaces_[medium = id];
         around_[i] = around;
     }

@@ -16,6 +16,7 @@
 #include <memory>
 #include <vector>
 
+#include "raymo/render/hit_order.hpp"
 #include "raymo/render/ray_stack.hpp"
 #include "raymo/render/render.hpp"
 #include "raymo/render/shade.hpp"
@@ -46,7 +47,7 @@ struct Signature {
 
 /// Rays from the eye, of unit direction.
 struct EyeBatch {
-    static constexpr std::size_t kMost = 256;
+    static constexpr std::size_t kMost = HitOrder::kPackets * kRays;
     std::size_t count = 0;
     std::array<trace::RayPacket, kMost / kRays> rays;
     /// Samples of one pixel share its seed; together they use each area light's samples once. Not read unless Stage::soft.
@@ -76,13 +77,18 @@ public:
     [[nodiscard]] trace::RayCounts counts() const;
 
 private:
-    /// Adds the light of hits to the answers and puts the rays that go on from them on the stacks. spots_.weight is set.
-    void shade(const trace::RayPacket& rays, LaneBits lanes, const Paths& paths);
+    /// The same for what was met by rays from the eye.
+    void shade_met(const double (&view)[3][kRays], const trace::HitPacket& hits, LaneBits lanes,
+                   Paths& paths);
+    /// Adds the light of hits to the answers and puts the rays that go on from them on the stacks. `view`: directions of the
+    /// rays that met them. spots_.weight is set.
+    void shade(const double (&view)[3][kRays], const trace::HitPacket& hits, LaneBits lanes,
+               const Paths& paths);
     void follow(RayStack& stack);
     void look_up(LaneBits lanes);
     void go_on(const Onward& onward, const Paths& paths, std::uint32_t turn);
-    void light_softly(const Lamp& lamp, const trace::RayPacket& rays, int lane, std::uint32_t owner,
-                      std::uint32_t name);
+    void light_softly(const Lamp& lamp, const double (&view)[3][kRays], int lane,
+                      std::uint32_t owner, std::uint32_t name);
     void dim(trace::RayPacket& shadows, int hit);
     void filter(trace::RayPacket& shadows, int hit);
     void absorb_gain(int lane, const Surface& medium, double length);
@@ -92,8 +98,10 @@ private:
     const Stage* stage_;
     trace::Tracer tracer_;
     SurfaceTable surfaces_;
+    HitOrder order_;  ///< of the batch in hand
     // Of the packet in hand.
-    trace::HitPacket hits_{}, shadow_hits_{};
+    const trace::HitPacket* hits_ = nullptr;
+    trace::HitPacket own_hits_{}, shadow_hits_{};
     Spots spots_;
     Onward reflected_, refracted_;
     Gains gains_;
@@ -101,7 +109,7 @@ private:
     trace::PassagePacket passages_;
     const Surface* around_[kRays];  ///< what each ray to a lamp is in
     double left_[kRays];            ///< of its light, behind the surfaces that it has passed
-    // Of the batch in hand. Images and what is seen through surfaces wait apart: rays of one kind are closer.
+    // Images and what is seen through surfaces wait apart: rays of one kind are closer.
     RayStack images_, views_;
     const EyeBatch* eyes_ = nullptr;
     Answers* answers_ = nullptr;

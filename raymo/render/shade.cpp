@@ -22,6 +22,7 @@ namespace HWY_NAMESPACE {
 #include "raymo/render/light_model.inl"
 //
 #include "raymo/render/lamps.inl"
+#include "raymo/render/lane_rows-inl.hpp"
 
 using trace::end_of;
 using trace::first_lanes;
@@ -72,20 +73,8 @@ void shade_background_in_lanes(const Surroundings& around, const double (&view)[
 }
 
 LaneBits met_alike_in_lanes(const trace::HitPacket& hits, int lane) {
-    const hn::CappedTag<std::uint32_t, kRays> tag;
-    LaneBits alike = 0;
-    for (std::size_t first = 0; first < kRays; first += hn::Lanes(tag)) {
-        const auto same = [&](const std::uint32_t(&of)[kRays]) HWY_ATTR {
-            return hn::Eq(hn::Load(tag, of + first), hn::Set(tag, of[lane]));
-        };
-        std::uint8_t bytes[8] = {};
-        hn::StoreMaskBits(tag,
-                          hn::And(same(hits.material),
-                                  hn::And(same(hits.medium_before), same(hits.medium_after))),
-                          bytes);
-        alike |= static_cast<LaneBits>(bytes[0] | bytes[1] << 8) << first;
-    }
-    return alike;
+    return equal_in_row(hits.material, lane) & equal_in_row(hits.medium_before, lane) &
+           equal_in_row(hits.medium_after, lane);
 }
 
 /// The surfaces of some lanes, to take their numbers from.
