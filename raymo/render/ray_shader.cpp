@@ -60,6 +60,7 @@ Stage::Stage(const trace::CompiledScene& compiled, const Look& look, const Optio
                                                   : std::clamp(options.max_depth, 0, kMostDepth)),
       min_weight(std::max(options.min_weight, kLeastWeight)),
       clear(compiled.has_transparency()),
+      absorbs(compiled.has_absorption()),
       soft(std::any_of(lamps.begin(), lamps.end(), [](const Lamp& l) { return l.is_area(); })) {}
 
 RayShader::RayShader(const Stage& stage)
@@ -212,9 +213,9 @@ void RayShader::go_on(const Onward& onward, const Paths& paths, std::uint32_t tu
     if (onward.lanes == 0) return;
     LaneBits going = worth_tracing(onward, stage_->min_weight);
     const auto most = static_cast<std::uint32_t>(stage_->max_depth);
-    bool deep = false;
-    for (const std::uint32_t depth : paths.depth) deep |= depth >= most;
-    if (deep) {
+    std::uint32_t left = 0;  // negative where one is too deep
+    for (const std::uint32_t depth : paths.depth) left |= most - 1 - depth;
+    if (static_cast<std::int32_t>(left) < 0) {
         for (LaneBits rest = going; rest != 0; rest &= rest - 1) {
             const int i = lowest_lane(rest);
             if (paths.depth[i] >= most) going &= ~(1U << i);
@@ -273,7 +274,9 @@ void RayShader::filter(RayPacket& shadows, int hit) {
     std::fill_n(left_, kRays, 1.0);
     csg::MaterialId medium = Hit::kAir;
     const Surface* around = &surfaces_[medium];
-    for (LaneBits rest = gains_.lanes; rest != 0; rest &= rest - 1) {
+    // Without media that absorb, nobody asks what a ray is in.
+    const LaneBits dimmed = stage_->absorbs ? trace::kAllLanes : 0;
+    for (LaneBits rest = gains_.lanes & dimmed; rest != 0; rest &= rest - 1) {
         const int i = lowest_lane(rest);
         const csg::MaterialId id = hits_->medium_before[hit < 0 ? i : hit];
         if (id != medium) around = &surfaces_[medium = id];
@@ -288,14 +291,14 @@ void RayShader::filter(RayPacket& shadows, int hit) {
         const LaneBits crossing = arriving & passages_.lanes[k];
         if (crossing != 0) arriving &= ~crossing | cross(met, shadows.d, reached, crossing);
     }
-    for (LaneBits rest = arriving; rest != 0; rest &= rest - 1) {
+    for (LaneBits rest = arriving & dimmed; rest != 0; rest &= rest - 1) {
         const int i = lowest_lane(rest);
         absorb_gain(i, *around_[i], shadows.t_max[i] - reached[i]);
     }
     // The others go from surface to surface.
     while (by_steps != 0) {
         const LaneBits found = tracer_.first_hits(shadows, by_steps, shadow_hits_);
-        for (LaneBits rest = by_steps & ~found; rest != 0; rest &= rest - 1) {
+        for (LaneBits rest = by_steps & ~found & dimmed; rest != 0; rest &= rest - 1) {
             const int i = lowest_lane(rest);
             absorb_gain(i, *around_[i], shadows.t_max[i]);
         }
@@ -340,7 +343,7 @@ LaneBits RayShader::cross(const HitPacket& met, const double (&view)[3][kRays],
         fill(ratio, alike,
              std::max(after.index, before.index) / std::min(after.index, before.index));
         fill(around_, alike, &after);
-        for (LaneBits each = alike; each != 0; each &= each - 1) {
+        for (LaneBits each = stage_->absorbs ? alike : 0; each != 0; each &= each - 1) {
             const int i = lowest_lane(each);
             absorb_gain(i, before, met.t[i] - reached[i]);
             reached[i] = met.t[i];

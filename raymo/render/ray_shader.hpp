@@ -31,8 +31,9 @@ struct Stage {
     Surroundings around;
     int max_depth = 8;
     double min_weight = 1.0 / 512;
-    bool clear = false;  ///< some part is transparent
-    bool soft = false;   ///< some lamp's light depends on the sample
+    bool clear = false;    ///< some part is transparent
+    bool absorbs = false;  ///< and takes away light on the way through it
+    bool soft = false;     ///< some lamp's light depends on the sample
 
     Stage(const trace::CompiledScene& scene, const Look& look, const Options& options);
 };

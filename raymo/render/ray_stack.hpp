@@ -60,8 +60,12 @@ public:
             next.depth[k] = paths.depth[k] + 1;
             next.within[k] = hits.leaf[k];
         }
-        for (LaneBits rest = lanes & ~within; rest != 0; rest &= rest - 1)
-            next.within[trace::lowest_lane(rest)] = trace::SurfaceId::kNone;
+        if (within == 0) {
+            std::fill_n(next.within, kRays, trace::SurfaceId::kNone);
+        } else {
+            for (LaneBits rest = lanes & ~within; rest != 0; rest &= rest - 1)
+                next.within[trace::lowest_lane(rest)] = trace::SurfaceId::kNone;
+        }
         pack(paths.owner, owners_);
         pack(next.name, names_);
         pack(next.depth, depths_);
@@ -87,10 +91,9 @@ public:
         unpack(names_, paths.name);
         unpack(depths_, paths.depth);
         unpack(within_, paths.within);
-        rays.within = paths.within[0];
-        for (std::size_t k = 1; k < count; ++k) {
-            if (paths.within[k] != rays.within) rays.within = trace::SurfaceId::kNone;
-        }
+        std::uint32_t differ = 0;
+        for (std::size_t k = 1; k < count; ++k) differ |= paths.within[k] ^ paths.within[0];
+        rays.within = differ == 0 ? paths.within[0] : trace::SurfaceId::kNone;
         return trace::first_lanes(count);
     }
 

@@ -56,6 +56,10 @@ Result<CompiledScene> compile(const scene::Scene& scene, Progress* progress) {
         data->has_transparency &&
         std::any_of(data->looks.begin(), data->looks.end(),
                     [&](const Look& look) { return data->is_transparent(look.material); });
+    data->has_absorption =
+        data->has_transparency && data->materials.any_of([](const scene::Material& m) {
+            return m.transmission > 0.0 && max_norm(m.absorption) > 0.0;
+        });
     return CompiledScene(std::move(data));
 }
 
@@ -63,6 +67,7 @@ const Aabb& CompiledScene::bounds() const { return data_->solids.front().bounds;
 std::size_t CompiledScene::part_count() const { return data_->solids.front().parts; }
 double CompiledScene::leaf_count() const { return data_->leaf_count; }
 bool CompiledScene::has_transparency() const { return data_->has_transparency; }
+bool CompiledScene::has_absorption() const { return data_->has_absorption; }
 
 std::size_t CompiledScene::stored_leaves() const {
     std::size_t n = 0;

@@ -39,6 +39,8 @@ public:
     [[nodiscard]] std::size_t bytes() const;
     /// True when some material lets light through, so that shadows need all surfaces on the way.
     [[nodiscard]] bool has_transparency() const;
+    /// True when the inside of some such material takes away light.
+    [[nodiscard]] bool has_absorption() const;
     /// Material by id; the default material for csg::kNoMaterial.
     [[nodiscard]] const scene::Material& material(csg::MaterialId id) const;
     [[nodiscard]] const Data& data() const { return *data_; }

@@ -116,6 +116,7 @@ struct CompiledScene::Data {
     scene::Material default_material;
     double leaf_count = 0.0;
     bool has_transparency = false;
+    bool has_absorption = false;
 
     [[nodiscard]] bool is_transparent(csg::MaterialId m) const {
         return m < materials.size() && materials[m].transmission > 0.0;
