@@ -17,6 +17,7 @@ int main(int argc, char** argv) {
         Console console(STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO);
         const int code = run(Args(argv + (argc > 0 ? 1 : 0), argv + argc), console);
         if (!interrupted()) return code;
+        stopped_in_time();
         console.raw("interrupted\n");
         return kInterrupted;
     } catch (const std::bad_alloc&) {

@@ -61,6 +61,11 @@ void install_signal_handlers() {
 
 bool interrupted() { return stop.load(std::memory_order_relaxed); }
 
+void stopped_in_time() {
+    const itimerval none{};
+    setitimer(ITIMER_REAL, &none, nullptr);
+}
+
 bool guard_file(const std::string& path) {
     for (Guarded& g : guarded) {
         if (g.in_use.load() || path.size() + 1 > g.path.size()) continue;

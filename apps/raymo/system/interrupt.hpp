@@ -13,6 +13,8 @@ void install_signal_handlers();
 
 /// True once the user wants to stop.
 [[nodiscard]] bool interrupted();
+/// The work has stopped in time: the process will not be ended by force while it says so and leaves.
+void stopped_in_time();
 
 /// A file that is removed when the process ends before its time. Up to 16 at once; false when there
 /// is no room.
