@@ -1,4 +1,4 @@
-// Solids as values: an immutable, shared graph of primitives, transformations and Booleans.
+// Solids as values: a shared graph of primitives, transformations and Booleans. A node that is shared never changes.
 #pragma once
 
 #include <atomic>
@@ -24,7 +24,7 @@ enum class NodeKind : std::uint8_t { leaf, transform, boolean, paint };
 
 struct Node;
 
-/// A solid: a counted reference to an immutable node. Copying costs nothing but the count; equal handles are the same
+/// A solid: a counted reference to a node, which does not change while there are others. Copying costs nothing but the count; equal handles are the same
 /// node. A default-constructed Solid is null and only good for assignment.
 class Solid {
 public:
@@ -54,8 +54,8 @@ struct Node {
     NodeKind kind;
     Op op = Op::unite;  ///< of a boolean
     SourceSpan span;    ///< the expression that made the node
-    float node_count =
-        1.0F;  ///< nodes below, each counted as often as it is instanced; exact up to 10^7
+    /// Nodes below, each counted as often as it is instanced. Exact up to 10^7; who asks wants to know if they are too many.
+    float node_count = 1.0F;
     double leaf_count = 1.0;  ///< leaves below, counted the same way; may be huge
 
     explicit Node(NodeKind k) : kind(k) {}

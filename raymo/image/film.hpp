@@ -1,4 +1,4 @@
-// A picture in linear light.
+// A picture: linear light, or what a screen shows of it.
 #pragma once
 
 #include <cstddef>

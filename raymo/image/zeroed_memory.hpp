@@ -1,8 +1,7 @@
 // Memory for large arrays of numbers that start at 0.
 //
 // Fresh pages come from the system filled with zeros, one fault a page: at 12 bytes a pixel that costs as much as a
-// preview's rays. So nothing is cleared twice (malloc's memory may have been used, or look so: calloc clears it), and where
-// the system can it is asked for large pages.
+// preview's rays. So nothing is cleared twice: malloc's memory may have been used, or look so, and calloc clears it.
 #pragma once
 
 #include <cstddef>

@@ -31,8 +31,8 @@ public:
     /// How many hits were sorted.
     [[nodiscard]] std::size_t size() const { return size_; }
     /// Those from number `first` on, as many as a packet holds; `rays` are those of all packets, in their order. Gives the
-    /// lanes that hold one, the directions of the rays, and where each stood: packet * kRays + lane. The hits' error, part,
-    /// instance and face are left out.
+    /// lanes that hold one, the directions of the rays (`view` begins at a multiple of 64 bytes), and where each stood:
+    /// packet * kRays + lane. The hits' error, part, instance and face are left out.
     LaneBits take(std::size_t first, const trace::RayPacket* rays, trace::HitPacket& hits,
                   double (&view)[3][kRays], std::uint32_t (&owner)[kRays]) const;
 

@@ -11,8 +11,9 @@
 
 namespace raymo::scene {
 
-/// A list of materials that grows at its end. It is kept in pieces that are never moved, and that copies of the list share
-/// until one of them changes: a model may have as many materials as solids.
+/// A list of materials that grows at its end. It is kept in pieces that are not moved when it grows, and that copies of the
+/// list share until one of them changes: a model may have as many materials as solids. Lists that share pieces may be read in
+/// any number of threads, but be changed or given up only in one.
 class MaterialTable {
 public:
     MaterialTable() = default;
@@ -27,8 +28,7 @@ public:
     }
     void push_back(const Material& material) {
         if (size_ % kPiece == 0) {
-            pieces_.push_back(std::make_shared<Piece>());
-            pieces_.back()->reserve(kPiece);
+            pieces_.push_back(made({}));
         } else {
             unshare(pieces_.back());
         }
@@ -59,8 +59,15 @@ private:
     static constexpr std::size_t kPiece = 64;
     using Piece = std::vector<Material>;
 
+    /// With room for all that a piece holds.
+    static std::shared_ptr<Piece> made(const Piece& materials) {
+        auto piece = std::make_shared<Piece>();
+        piece->reserve(kPiece);
+        piece->assign(materials.begin(), materials.end());
+        return piece;
+    }
     static void unshare(std::shared_ptr<Piece>& piece) {
-        if (piece.use_count() > 1) piece = std::make_shared<Piece>(*piece);
+        if (piece.use_count() > 1) piece = made(*piece);
     }
 
     std::vector<std::shared_ptr<Piece>> pieces_;

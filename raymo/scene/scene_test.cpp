@@ -38,9 +38,12 @@ TEST_CASE("materials: copies of a table share it until one of them changes") {
     const Material* const first = &table[0];
     copy.edit(150).ior = -1.0;
     copy.push_back(with_ior(200.0));
+    const Material* const last = &copy[200];
     table.push_back(with_ior(-200.0));
+    for (int i = 0; i < 20; ++i) copy.push_back(with_ior(0.0));
+    CHECK(&copy[200] == last);
     table.resize(300);
-    CHECK(copy.size() == 201);
+    CHECK(copy.size() == 221);
     CHECK(table.size() == 300);
     for (std::size_t i = 0; i < 200; ++i) {
         CHECK(table[i].ior == static_cast<double>(i));

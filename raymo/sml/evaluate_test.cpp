@@ -74,6 +74,24 @@ TEST_CASE("evaluate: leaves know the call that made them") {
     CHECK(moved.span == SourceSpan{0, 43, 52});
 }
 
+TEST_CASE("evaluate: memory of solids that are moved and dropped is given back") {
+    const auto runs = [](const std::string& text, double bytes) {
+        Host host;
+        host.limits.bytes = bytes;
+        return evaluate("test.raymo", text, host).ok;
+    };
+    const std::string dropped =
+        "for i in 0..<20000 {\n"
+        "    let a = sphere(1).move(i, 0, 0)\n"
+        "    let b = sphere(1).rotate(x: i).move(i, 0, 0).move(1, 2, 3)\n"
+        "}\n";
+    CHECK(runs(dropped, 1e5));
+    const std::string kept = "part p = union([for i in 0..<2000: sphere(1).move(i, 0, 0)])\n";
+    const double nodes = 2000.0 * sizeof(csg::LeafNode);
+    CHECK_FALSE(runs(kept, nodes));
+    CHECK(runs(kept, 1.8 * nodes));  // with what the list takes
+}
+
 TEST_CASE("evaluate: a sum of many is one Boolean, and sharing costs nothing") {
     const Run r = run("let s = sphere(1)\npart p = s + s.move(x: 3) + s.move(x: 6) - s\n");
     REQUIRE(r.outcome.ok);

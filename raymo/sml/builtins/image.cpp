@@ -117,8 +117,14 @@ bool apply_to_shape(Call& call, const Value& shape, const Affine& map, std::size
 }  // namespace
 
 bool apply(Call& call, Value& shape, const Affine& map, std::size_t blame, Value& out) {
-    if (shape.is(Tag::solid))
-        return call.result(csg::transform(shape.take_solid(), map, call.span()), out);
+    if (shape.is(Tag::solid)) {
+        const csg::Node* const before = &shape.solid().node();
+        Result<csg::Solid> image = csg::transform(shape.take_solid(), map, call.span());
+        if (!image || &image->node() != before) return call.result(std::move(image), out);
+        // Moved within its own node, which is counted.
+        out = Value::solid(*std::move(image));
+        return call.evaluator().step(call.node());
+    }
     if (is_shape(shape)) {
         const Value keep = shape;
         return apply_to_shape(call, keep, map, blame, out);
