@@ -24,8 +24,8 @@ enum class NodeKind : std::uint8_t { leaf, transform, boolean, paint };
 
 struct Node;
 
-/// A solid: a counted reference to a node, which does not change while there are others. Copying costs nothing but the count; equal handles are the same
-/// node. A default-constructed Solid is null and only good for assignment.
+/// A solid: a counted reference to a node, which does not change while there are others. Copying costs nothing but the
+/// count; equal handles are the same node. A default-constructed Solid is null and only good for assignment.
 class Solid {
 public:
     Solid() = default;

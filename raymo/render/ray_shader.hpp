@@ -78,13 +78,14 @@ public:
     [[nodiscard]] trace::RayCounts counts() const;
 
 private:
-    /// The same for what was met by rays from the eye.
-    void shade_met(const double (&view)[3][kRays], const trace::HitPacket& hits, LaneBits lanes,
-                   Paths& paths);
     /// Adds the light of hits to the answers and puts the rays that go on from them on the stacks. `view`: directions of the
     /// rays that met them. spots_.weight is set.
     void shade(const double (&view)[3][kRays], const trace::HitPacket& hits, LaneBits lanes,
                const Paths& paths);
+    /// The same for what rays from the eye met, of which `paths` has only the owners; then follows rays that wait, as long
+    /// as they fill packets.
+    void shade_met(const double (&view)[3][kRays], const trace::HitPacket& hits, LaneBits lanes,
+                   Paths& paths);
     void follow(RayStack& stack);
     void look_up(LaneBits lanes);
     void go_on(const Onward& onward, const Paths& paths, std::uint32_t turn);
