@@ -63,17 +63,13 @@ bool move_in_place(const Solid& solid, Vec3 by, SourceSpan span) {
     const Node& seen = solid.node();
     if (seen.references.load(std::memory_order_acquire) != 1) return false;
     auto& node = const_cast<Node&>(seen);  // no other handle could see it change
-    if (node.kind == NodeKind::transform) {
-        Vec3& offset = static_cast<TransformNode&>(node).map.offset;
-        if (offset != Vec3{}) return false;
-        offset = by;
-        node.span = span;
-        return true;
-    }
-    if (node.kind != NodeKind::leaf) return false;
-    Vec3& offset = static_cast<LeafNode&>(node).solid.to_object.offset;
-    if (offset != Vec3{}) return false;
-    offset = by;
+    const bool is_transform = node.kind == NodeKind::transform;
+    if (!is_transform && node.kind != NodeKind::leaf) return false;
+    Affine& map = is_transform ? static_cast<TransformNode&>(node).map
+                               : static_cast<LeafNode&>(node).solid.to_object;
+    if (map.offset != Vec3{}) return false;
+    map.offset = by;
+    if (is_transform) node.span = span;  // a leaf keeps the call that made it
     return true;
 }
 
