@@ -8,7 +8,7 @@
 #include "raymo/csg/model.hpp"
 #include "raymo/curves/samples.hpp"
 #include "raymo/trace/packet.hpp"
-#include "raymo/trace/test_primitive.hpp"
+#include "raymo/trace/test_ends.hpp"
 
 namespace raymo::trace {
 namespace {
@@ -16,7 +16,10 @@ namespace {
 using csg::Op;
 using csg::Solid;
 
+using test::check_ends;
+using test::ends;
 using test::primitive;
+using test::scene_of;
 Solid block(Vec3 size) { return primitive("block", {size, false}); }
 Solid sphere(double r) { return primitive("sphere", {r}); }
 Solid cylinder(double r, double h) { return primitive("cylinder", {r, h, false}); }
@@ -33,33 +36,6 @@ Solid join(Solid a, Solid b) { return csg::boolean(Op::unite, {std::move(a), std
 Solid cut(Solid a, Solid b) { return csg::boolean(Op::difference, {std::move(a), std::move(b)}); }
 Solid meet(Solid a, Solid b) {
     return csg::boolean(Op::intersection, {std::move(a), std::move(b)});
-}
-
-scene::Scene scene_of(std::vector<Solid> solids) {
-    scene::Scene out;
-    for (Solid& s : solids) out.parts.push_back({"part", std::move(s), {}});
-    return out;
-}
-
-/// Ends of the spans of one solid, in order.
-std::vector<double> ends(const Solid& solid, const Ray& ray) {
-    const auto compiled = compile(scene_of({solid}));
-    REQUIRE(compiled.has_value());
-    Tracer tracer(*compiled);
-    std::vector<std::vector<PartSpan>> spans;
-    tracer.spans(ray, spans);
-    std::vector<double> out;
-    for (const PartSpan& span : spans[0]) {
-        out.push_back(span.enter.t);
-        out.push_back(span.exit.t);
-    }
-    return out;
-}
-
-void check_ends(const std::vector<double>& found, const std::vector<double>& expected) {
-    REQUIRE(found.size() == expected.size());
-    for (std::size_t i = 0; i < found.size(); ++i)
-        CHECK(found[i] == doctest::Approx(expected[i]).epsilon(1e-12));
 }
 
 }  // namespace

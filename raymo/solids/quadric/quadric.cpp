@@ -98,12 +98,12 @@ Result<Placed<Quadric::Kernel>> Quadric::prepare(std::span<const Argument> argum
         return wrong_matrix("quadric: no point has a value below 0, so there is no solid",
                             "change the sign of the matrix, or of its last entry");
     }
-    const Vec3 origin = shape.origin(form);
+    const auto [origin, size] = shape.frame(form);
     if (!is_finite(origin)) {
         return wrong_matrix("quadric: entries differ too much in size to be computed with",
                             "give the matrix in other units");
     }
-    const double scale = std::ldexp(1.0, std::ilogb(shape.size()));
+    const double scale = std::ldexp(1.0, std::ilogb(size));
     Affine map = scaling({scale, scale, scale});
     map.offset = origin;
     return Placed<Kernel>{Kernel(moved(form, origin, scale)), map};

@@ -92,6 +92,27 @@ void find_axes(const Mat3& a, QuadricShape& shape) {
     }
 }
 
+/// A frame of this size neither overflows nor underflows.
+bool is_usable(double length) { return length > 1e-90 && length < 1e90; }
+
+/// A length of the size of the surface: largest semi-axis of an ellipsoid, waist of a hyperboloid, radius of curvature at
+/// the vertex of a paraboloid, 1 for a cone.
+double size_of(const QuadricShape& shape) {
+    double least = kInf, most = 0.0;
+    for (const double v : shape.value) {
+        if (v == 0.0) continue;
+        least = std::min(least, std::fabs(v));
+        most = std::max(most, std::fabs(v));
+    }
+    if (most == 0.0) return 1.0;
+    const double level = std::fabs(shape.level);
+    const double length = shape.has_slope()
+                              ? 2.0 * norm(shape.slope) / most
+                              : std::sqrt(level / (shape.has_negative_value() ? most : least));
+    const bool known = shape.has_slope() || level >= shape.level_error;
+    return known && is_usable(length) ? length : 1.0;
+}
+
 }  // namespace
 
 QuadraticForm moved(const QuadraticForm& form, Vec3 origin, double scale) {
@@ -150,7 +171,7 @@ QuadricShape analyse(const QuadraticForm& form) {
     return shape;
 }
 
-Vec3 QuadricShape::origin(const QuadraticForm& form) const {
+QuadricShape::Frame QuadricShape::frame(const QuadraticForm& form) const {
     const double largest =
         std::max({std::fabs(value[0]), std::fabs(value[1]), std::fabs(value[2])});
     Vec3 place;
@@ -165,16 +186,23 @@ Vec3 QuadricShape::origin(const QuadraticForm& form) const {
             (!has_slope() && offset * offset * std::fabs(value[i]) > 16.0 * std::fabs(level));
         if (placed[i]) place += axis[i] * offset;
     }
+    const double size = size_of(*this);
     // Along the axes that are left, on to the surface, if that is near.
     Vec3 rest = form.half_gradient(place);
     for (std::size_t i = 0; i < 3; ++i) {
         if (placed[i]) rest -= axis[i] * dot(axis[i], rest);
     }
     const double steepness = dot(rest, rest);
-    if (!(steepness > 0.0)) return place;
-    const Vec3 step = rest * (-0.5 * form(place) / steepness);
-    const bool near = norm(step) <= 16.0 * (norm(place) + size());
-    return near || largest == 0.0 || has_slope() ? place + step : place;
+    if (!(steepness > 0.0)) return {place, size};
+    const double height = form(place);
+    const Vec3 step = rest * (-0.5 * height / steepness);
+    // Rounding in a frame of this size costs dot(step, step) / size at `place`, and the user's own numbers have that of
+    // their distance from the origin.
+    const bool near = dot(step, step) <= 256.0 * size * (norm(place) + size);
+    if (near || largest == 0.0) return {place + step, size};
+    // What the slope does is hardly seen here: the surface is a cylinder's as far as one looks.
+    const double radius = has_slope() ? std::sqrt(std::fabs(height) / largest) : size;
+    return {place, is_usable(radius) ? radius : size};
 }
 
 bool QuadricShape::has_negative_value() const {
@@ -210,21 +238,6 @@ double QuadricShape::support(Vec3 n) const {
     if (max_norm(rest - slope * k) > rounding) return kInf;
     if (!crosswise) return along_axes > 0.0 ? kInf : dot(n, centre);
     return k > 0.0 ? dot(n, centre) + along_axes / (2.0 * k) : kInf;
-}
-
-double QuadricShape::size() const {
-    double least = kInf, most = 0.0;
-    for (const double v : value) {
-        if (v == 0.0) continue;
-        least = std::min(least, std::fabs(v));
-        most = std::max(most, std::fabs(v));
-    }
-    if (most == 0.0) return 1.0;
-    const double length = has_slope()
-                              ? 2.0 * norm(slope) / most
-                              : std::sqrt(std::fabs(level) / (has_negative_value() ? most : least));
-    const bool usable = length > 1e-90 && length < 1e90 && std::fabs(level) >= level_error;
-    return usable || (has_slope() && length > 1e-90 && length < 1e90) ? length : 1.0;
 }
 
 }  // namespace raymo::solids

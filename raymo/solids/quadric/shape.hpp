@@ -28,12 +28,14 @@ struct QuadricShape {
     /// The largest of n.x over the solid f <= 0; infinite where there is none. The solid must have
     /// an interior.
     [[nodiscard]] double support(Vec3 n) const;
-    /// A good origin for the canonical frame of f, whose shape this is: the centre or vertex, unless that is far away
-    /// from the surface.
-    [[nodiscard]] Vec3 origin(const QuadraticForm& form) const;
-    /// A length of the size of the surface: largest semi-axis of an ellipsoid, waist of a
-    /// hyperboloid, 1 for a cone.
-    [[nodiscard]] double size() const;
+    /// Where the canonical frame of f stands, and the size of the surface there.
+    struct Frame {
+        Vec3 origin;
+        double size;
+    };
+    /// A good frame for f, whose shape this is: at its centre or vertex; or, where that is far away along axes with little
+    /// or no value compared to the size of the surface, beside it, in reach of the user's own origin.
+    [[nodiscard]] Frame frame(const QuadraticForm& form) const;
 };
 
 /// Principal axes by Jacobi's rotations, which leave what is zero zero. Coefficients must be

@@ -4,10 +4,10 @@
 // unbounded, so s may have any size, and A, B and C may be zero, alone or together.
 //
 // Error. The line is off by at most e for |s| |d| <= 1 and by e (1 + |s| |d|) beyond, so f(x) by
-//     E(s) = 2 |Ax + b|.e (1 + |s| |d|) + (e.|A|e) (1 + |s| |d|)^2 + 8 u (|f|)(|x|)
+//     E(s) = 2 |Ax + b|.e (1 + |s| |d|) + (e.|A|e) (1 + |s| |d|)^2 + 8 u (|f|)(|o| + |s| |d|)
 //         <= E0 + E1 |s| + E2 s^2
-// where |f| is f with the absolute values of its coefficients: eight roundings of the coefficients,
-// of A, B and C, and of the root formula. A root r is certain to within
+// where |f| is f with the absolute values of its coefficients, and |o| and |d| are taken one by one: eight roundings of the
+// coefficients, of A, B and C, and of the root formula. A root r is certain to within
 //     E / sqrt(max(D, |A| E)),  D = B^2 - A C,
 // where E is E(r) and what E may change by up to the true root.
 //
@@ -123,7 +123,7 @@ void Quadric::Kernel::spans(const LocalRay<double>& ray, SpanList& out) const {
         const double place = std::max(1.0, std::fabs(s) * line.length / 1.75);
         const Vec3 x = o + d * s;
         double slack = 2.0 * dot(abs(form().half_gradient(x)), e) * place + q * place * place +
-                       u * form().magnitude(x);
+                       u * form().magnitude(abs(o) + abs(d) * std::fabs(s));
         double error = slack / std::sqrt(std::max(disc, std::fabs(a) * slack));
         slack += 4.0 * g1 * error * place;
         error = slack / std::sqrt(std::max(disc, std::fabs(a) * slack));
