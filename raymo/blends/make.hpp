@@ -5,22 +5,11 @@
 
 namespace raymo::blends {
 
-/// Row of a primitive in solids::inventory().
-template <solids::Primitive P>
-[[nodiscard]] constexpr std::uint32_t row_of() {
-    std::uint32_t row = 0;
-    std::uint32_t found = 0;
-    solids::Inventory::for_each([&]<class Q>() {
-        if constexpr (std::is_same_v<P, Q>) found = row;
-        ++row;
-    });
-    return found;
-}
-
 template <solids::Primitive P>
 [[nodiscard]] Result<csg::Solid> make(std::initializer_list<solids::Argument> arguments,
                                       SourceSpan span) {
-    return csg::primitive(row_of<P>(), {arguments.begin(), arguments.size()}, span);
+    return csg::primitive(solids::Inventory::index_of<P>(), {arguments.begin(), arguments.size()},
+                          span);
 }
 
 /// Takes (x, y, z) to origin + x u + y v + z w.

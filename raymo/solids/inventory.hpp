@@ -1,6 +1,7 @@
 // Every primitive RAYMO knows, in the order of the manual. Adding a solid is one folder and one line here.
 #pragma once
 
+#include <type_traits>
 #include <variant>
 
 #include "raymo/solids/block/block.hpp"
@@ -24,6 +25,14 @@ template <Primitive... Ps>
 struct List {
     using Kernels = std::variant<typename Ps::Kernel...>;
     static constexpr std::size_t kSize = sizeof...(Ps);
+    /// The number of P among them.
+    template <class P>
+    static constexpr std::uint32_t index_of() {
+        static_assert((std::is_same_v<P, Ps> || ...), "no primitive of the list");
+        std::uint32_t i = 0;
+        (void)((std::is_same_v<P, Ps> || (++i, false)) || ...);
+        return i;
+    }
     /// Calls f.template operator()<P>() for every primitive, in order.
     template <class F>
     static constexpr void for_each(F&& f) {
