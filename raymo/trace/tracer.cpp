@@ -122,9 +122,10 @@ struct Tracer::State {
                           : moved_aside(first, lane.step, blurs, query.on_surface);
                 ++blurs;
             } else {
+                // As a last resort the ray that was moved least: longer steps may lead into another place.
                 step = std::max(step, lane.step);
-                ray = moved_aside(straight, step, attempts, query.on_surface);
-                ++attempts;
+                const int length = ++attempts == kAttempts ? 0 : attempts - 1;
+                ray = moved_aside(straight, step, length, query.on_surface);
             }
         }
     }
