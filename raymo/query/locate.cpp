@@ -11,6 +11,7 @@ namespace raymo::query {
 namespace {
 
 constexpr std::size_t kGeneric = 32;          // directions that fit no model
+constexpr double kNoAngle = 0x1p-40;          // sine of one that only rounding leaves
 constexpr std::uint64_t kPollEvery = 0x4000;  // nodes between two looks at the user's wish to stop
 constexpr std::size_t kLeafDirections = 8;    // leaves whose own directions are tried
 
@@ -54,6 +55,12 @@ void into(const Affine& map, const Mat3& inv, Vec3& p, Vec3& error) {
 template <class K>
 Where beside_leaf(const K& kernel, Vec3 q, Vec3 e, Vec3 d, solids::SpanList& spans) {
     const double dd = dot(d, d);
+    if constexpr (std::is_same_v<K, solids::Halfspace::Kernel>) {
+        // Lines are judged near the frame's origin only, and q may lie anywhere on the plane.
+        const double no_angle = kNoAngle + e.z / kDegenerate;
+        if (std::fabs(d.z) <= std::sqrt(dd) * no_angle) return Where::on;
+        return d.z > 0.0 ? Where::out : Where::in;
+    }
     const double s_q = dot(q, d) / dd;  // q = o + s_q d
     const Vec3 o = q - d * s_q;
     spans.clear();

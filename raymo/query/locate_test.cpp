@@ -39,6 +39,18 @@ TEST_CASE("locate: a thirds' step abuts as a whole one does") {
     CHECK(two.where({1, 0.25, 0.75}) == Where::in);
 }
 
+TEST_CASE("locate: two halves make a whole on their common plane, far from its origin too") {
+    const csg::Solid half = halfspace({1, 2, 2}, 3);
+    const csg::Solid block = move(test::block(4000, 4000, 4000), {-2000, -2000, -2000});
+    Locator halves((block & half) + (block - half));
+    Locator one(block & half);
+    for (const Vec3 p :
+         {Vec3{1, 1, 0}, Vec3{1001, -999, 500}, Vec3{-1999, 1001, 0}, Vec3{3, -1500, 1500}}) {
+        CHECK(halves.where(p) == Where::in);
+        CHECK(one.where(p) == Where::on);
+    }
+}
+
 TEST_CASE("locate: a solid without itself is nothing, with itself the same") {
     const csg::Solid s = move(sphere(1.0), {0.1, 0.2, 0.3});
     Locator none(s - s);

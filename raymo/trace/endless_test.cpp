@@ -27,4 +27,34 @@ TEST_CASE("trace: a quadric with its vertex far away is met where the user looks
                {10 - 2.4625 / 1.0504, 14});
 }
 
+TEST_CASE("trace: a plane that a ray meets far away at a small angle does not trouble it here") {
+    // The crossing lies four thousand lengths of the block away; all of the ray that meets the block is outside.
+    const csg::Solid half = primitive(
+        "halfspace", {Vec3{0.54424908151325657, 0.49962008841690431, -0.67392336695076949},
+                      -0.53119605940995385});
+    Affine map;
+    map.linear.row = {Vec3{-326519.03626310249, -85161.543824666267, 437186.39723420743},
+                      Vec3{333181.02033084375, 421716.70011307835, 42554.130047611172},
+                      Vec3{364425.91216565185, -387995.94702835608, 118241.24285620671}};
+    map.offset = {929343.60763005703, 1009305.3699705368, 39723.840288136271};
+    const csg::Solid piece = csg::transform(within_block(half), map).value();
+    check_ends(ends(piece, {{-70258.69568594638, -190430.3545748894, 2661281.1123111886},
+                            {3704916.440808069, 7678129.132679497, -3651613.05191077}}),
+               {});
+}
+
+TEST_CASE("trace: a plane is met alike however far from the model it was written") {
+    const csg::Solid block = primitive("block", {Vec3{8, 8, 8}, true});
+    for (const double far : {0.0, 30.0, 1e3}) {
+        CAPTURE(far);
+        // 3 x + 4 z <= 0 about a point of its plane, and about another that is `far` away.
+        const csg::Solid half = csg::transform(primitive("halfspace", {Vec3{3, 0, 4}, -10 * far}),
+                                               translation({2 * far, 0, far}))
+                                    .value();
+        const csg::Solid piece = csg::boolean(csg::Op::intersection, {block, half});
+        check_ends(ends(piece, {{1, 2, -10}, {0, 0, 1}}), {6, 9.25});
+        check_ends(ends(piece, {{-10, 1, 0.5}, {1, 0, 0}}), {6, 10 - 2.0 / 3.0});
+    }
+}
+
 }  // namespace raymo::trace

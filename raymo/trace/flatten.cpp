@@ -46,8 +46,8 @@ struct Flattener::Item {
 struct Flattener::Pending {
     Leaf leaf;            ///< centre in the model frame until normalised
     double displacement;  ///< of the leaf, in the model frame
-    double linear_error;  ///< of the placement
     bool endless;         ///< the leaf alone reaches to infinity
+    double tilt;  ///< of an endless leaf, per distance from its centre: error of its placement
     csg::MaterialId material;
     SourceSpan span;
     std::uint32_t primitive;
@@ -285,6 +285,9 @@ Result<void> Flattener::add_leaf(Work& work, const csg::LeafNode& node, const Vi
         last_ = {type, kernel, place.map.linear, tables_.frame(frame)};
     }
     pending.leaf.frame = last_.frame;
+    if (pending.endless) {
+        pending.tilt = norm(place.linear_error * tables_.frames()[last_.frame].row_length);
+    }
     pending.primitive = node.primitive;
     enlist(work, at, item, pending, place, node.span);
     return {};
@@ -296,7 +299,6 @@ void Flattener::enlist(Work& work, const Visit& at, Item item, Pending pending,
     pending.leaf.centre = place.map.offset;
     const Vec3 tilt = place.linear_error * Vec3{1, 1, 1};
     pending.displacement = norm(tilt + place.offset_error);
-    pending.linear_error = norm(tilt);
     pending.material = at.material;
     pending.span = span;
     pending.item = static_cast<std::uint32_t>(work.items.size());
@@ -427,6 +429,27 @@ void Flattener::make_groups(Work& work, CompiledSolid& out) {
     }
 }
 
+namespace {
+
+/// A half-space has neither a size nor a place along its plane. Its frame gets those of the model, so that what is near and
+/// what is far on the plane is judged as the model sees it.
+constexpr std::uint32_t kHalfspace = solids::Inventory::index_of<solids::Halfspace>();
+
+/// Gives the frame units about as long as those of the normalised frame that it stands in.
+void take_size_of_model(Frame& frame) {
+    const double shrink = std::ldexp(1.0, -std::ilogb(max_norm(frame.row_length)));
+    for (Vec3& row : frame.to_local.row) row *= shrink;
+    frame.row_length *= shrink;
+}
+
+/// The point nearest to `p` of the plane through `point` with the unit normal `n`.
+Vec3 on_plane(Vec3 p, Vec3 point, Vec3 n) {
+    const Vec3 step = p - point;
+    return point + (step - n * dot(n, step));
+}
+
+}  // namespace
+
 void Flattener::normalise(Work& work, CompiledSolid& out) {
     for (const Item& item : work.items) {
         if (item.kind == Kind::leaf && !item.box.empty()) out.bounds = hull(out.bounds, item.box);
@@ -440,6 +463,7 @@ void Flattener::normalise(Work& work, CompiledSolid& out) {
     for (Frame& frame : tables_.frames()) {
         for (Vec3& row : frame.to_local.row) row *= 1.0 / out.scale;
         frame.row_length *= 1.0 / out.scale;
+        if (frame.type == kHalfspace) take_size_of_model(frame);
     }
     if (data_.frames.empty()) {
         data_.frames = std::move(tables_.frames());
@@ -456,13 +480,16 @@ void Flattener::normalise(Work& work, CompiledSolid& out) {
         if (clip.empty()) continue;
         Leaf leaf = pending.leaf;
         double displacement = pending.displacement;
-        // Rounding of the subtraction below; an endless leaf errs by its placement's tilt over the
-        // whole model.
+        // Rounding of the subtraction below; an endless leaf errs by its tilt over the whole model.
         displacement += 2.0 * kUnitRoundoff * (norm(leaf.centre) + far);
         if (pending.endless) {
-            displacement += 2.0 * radius * (pending.linear_error + 16.0 * kUnitRoundoff);
+            const double reach = norm(leaf.centre - out.centre) + radius;
+            displacement += reach * (pending.tilt + 16.0 * kUnitRoundoff);
         }
         leaf.frame += first_frame;
+        if (const Frame& frame = data_.frames[leaf.frame]; frame.type == kHalfspace) {
+            leaf.centre = on_plane(out.centre, leaf.centre, unit(frame.to_local.row[2]));
+        }
         leaf.centre = (leaf.centre - out.centre) * out.scale;
         leaf.displacement = float_above(displacement * out.scale);
         leaf.order = order;

@@ -7,11 +7,12 @@
 // within its error is inside altogether or outside altogether, unless it lies so near the plane
 // that it may cross within `reach` of the leaf's origin: then it is degenerate, and so is a line
 // that crosses there at so small an angle that the crossing is uncertain by more than kDegenerate
-// of its distance.
+// of its distance. Those who look at a model as a whole choose a frame of its size, near it (see
+// trace/flatten.cpp), so that what happens farther away is of no interest.
 template <class R, class M>
 RAYMO_INLINE void halfspace_spans(const LocalRay<R>& ray, LaneSpans<R, M, 1>& out) {
     const R inf = R(std::numeric_limits<double>::infinity());
-    const R reach = R(0.5 * kSidestep);
+    const R reach = R(8.0);
     const R length = lane_sqrt(ray.dd);
     const R slack = ray.ez + R(2.0 * kUnitRoundoff) * lane_abs(ray.oz);
     const R sine = lane_abs(ray.dz) / length;
