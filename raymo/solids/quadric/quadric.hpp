@@ -2,9 +2,9 @@
 // cones, cylinders over conics, pairs of planes, and their complements.
 //
 // The user gives the symmetric 4x4 matrix of f(x) = x^T A x + 2 b.x + c. Canonical frame: the
-// origin is moved to the centre or vertex, unless that is far away from the surface (see
-// QuadricShape::origin); lengths are divided by a power of two near the surface's size, and f by
-// one near its largest coefficient. The coefficients are transformed with twice the working
+// origin is moved to the centre or vertex, unless that is far away from where the user looks (see
+// QuadricShape::frame); lengths are divided by a power of two near the surface's size as it is seen
+// from there, and f by one near its largest coefficient. The coefficients are transformed with twice the working
 // precision. Principal axes, box and size: shape.hpp; spans: spans.cpp.
 // A solid without interior is an error: f >= 0 everywhere, to within the rounding of the
 // coefficients. Ref: [Wijk86 2.3].

@@ -14,8 +14,10 @@ constexpr double kInf = std::numeric_limits<double>::infinity();
 /// A principal value below this part of the largest one is taken as 0: 64 roundings.
 constexpr double kNoValue = 128.0 * kUnitRoundoff;
 /// Along axes with a value below this part of the largest one the solid is long, and its centre may be far from what the
-/// user looks at; see QuadricShape::origin.
+/// user looks at; see QuadricShape::frame.
 constexpr double kWeakValue = 0x1p-8;
+/// A surface that is longer than this, compared to its size where the user looks, is not looked at as a whole.
+constexpr double kLong = 0x1p20;
 
 /// A sum of products with twice the working precision [OgitaRumpOishi05].
 class LongSum {
@@ -105,12 +107,20 @@ double size_of(const QuadricShape& shape) {
         most = std::max(most, std::fabs(v));
     }
     if (most == 0.0) return 1.0;
-    const double level = std::fabs(shape.level);
-    const double length = shape.has_slope()
-                              ? 2.0 * norm(shape.slope) / most
-                              : std::sqrt(level / (shape.has_negative_value() ? most : least));
-    const bool known = shape.has_slope() || level >= shape.level_error;
-    return known && is_usable(length) ? length : 1.0;
+    double length = 0.0;
+    if (shape.has_slope()) {
+        length = 2.0 * norm(shape.slope) / most;
+    } else if (std::fabs(shape.level) >= shape.level_error) {
+        length = std::sqrt(std::fabs(shape.level) / (shape.has_negative_value() ? most : least));
+    }
+    return is_usable(length) ? length : 1.0;
+}
+
+/// a + b, and its error where it is what is left of far greater numbers. `error`: relative, of b beside its rounding.
+double outward_sum(double a, double b, double error) {
+    const double sum = a + b;
+    if (!(std::fabs(sum) < 0x1p-8 * b)) return sum;
+    return sum + (32.0 * kUnitRoundoff + error) * (std::fabs(a) + b);
 }
 
 }  // namespace
@@ -186,7 +196,11 @@ QuadricShape::Frame QuadricShape::frame(const QuadraticForm& form) const {
             (!has_slope() && offset * offset * std::fabs(value[i]) > 16.0 * std::fabs(level));
         if (placed[i]) place += axis[i] * offset;
     }
-    const double size = size_of(*this);
+    // The surface as it is seen from there. What is so much longer is a cylinder as far as one looks.
+    const double height = form(place);
+    const double here = std::sqrt(std::fabs(height) / largest);
+    double size = size_of(*this);
+    if (!has_slope() && is_usable(here) && size > kLong * here) size = std::sqrt(kLong) * here;
     // Along the axes that are left, on to the surface, if that is near.
     Vec3 rest = form.half_gradient(place);
     for (std::size_t i = 0; i < 3; ++i) {
@@ -194,15 +208,12 @@ QuadricShape::Frame QuadricShape::frame(const QuadraticForm& form) const {
     }
     const double steepness = dot(rest, rest);
     if (!(steepness > 0.0)) return {place, size};
-    const double height = form(place);
     const Vec3 step = rest * (-0.5 * height / steepness);
     // Rounding in a frame of this size costs dot(step, step) / size at `place`, and the user's own numbers have that of
     // their distance from the origin.
     const bool near = dot(step, step) <= 256.0 * size * (norm(place) + size);
     if (near || largest == 0.0) return {place + step, size};
-    // What the slope does is hardly seen here: the surface is a cylinder's as far as one looks.
-    const double radius = has_slope() ? std::sqrt(std::fabs(height) / largest) : size;
-    return {place, is_usable(radius) ? radius : size};
+    return {place, has_slope() && is_usable(here) ? here : size};
 }
 
 bool QuadricShape::has_negative_value() const {
@@ -229,7 +240,9 @@ double QuadricShape::support(Vec3 n) const {
     const bool crosswise = max_norm(rest) > rounding;
     if (!has_slope()) {
         // An ellipsoid or a cylinder over an ellipse, or a slab: y^T V y <= -level.
-        return crosswise ? kInf : dot(n, centre) + std::sqrt(along_axes * std::max(0.0, -level));
+        if (crosswise) return kInf;
+        const double extent = std::sqrt(along_axes * std::max(0.0, -level));
+        return outward_sum(dot(n, centre), extent, level_error / std::fabs(level));
     }
     // Paraboloid: slope . y <= - (1/2) sum value_i y_i^2. Finite for n = k slope + (axes with
     // value), k > 0: n.y = k slope.y + m.y <= -(k/2) sum value_i y_i^2 + m.y  <=  sum m_i^2 /
@@ -237,7 +250,7 @@ double QuadricShape::support(Vec3 n) const {
     const double k = dot(rest, slope) / dot(slope, slope);
     if (max_norm(rest - slope * k) > rounding) return kInf;
     if (!crosswise) return along_axes > 0.0 ? kInf : dot(n, centre);
-    return k > 0.0 ? dot(n, centre) + along_axes / (2.0 * k) : kInf;
+    return k > 0.0 ? outward_sum(dot(n, centre), along_axes / (2.0 * k), 0.0) : kInf;
 }
 
 }  // namespace raymo::solids

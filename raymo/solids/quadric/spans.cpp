@@ -13,7 +13,9 @@
 //
 // |A| <= E2 means that the sign of A is not known: the line is parallel to a generator, and one
 // root or both lie farther away than the line is known to be straight. A is then taken as 0; so is
-// B when 2 |B| <= E1, and the line is inside or outside altogether.
+// B when 2 |B| <= E1, and the line is inside or outside altogether. It is, too, where the root that
+// is left has an error of its own distance: A is not known to be 0 either, and the error bound of a
+// straight line says nothing of where it ends.
 #include <cmath>
 #include <limits>
 
@@ -54,6 +56,15 @@ double difference_of_products(double p, double q, double r, double s) {
     return std::fma(p, q, -rs) + std::fma(-r, s, rs);
 }
 
+/// Neither the place of the crossing is known, nor whether there is one.
+bool is_unknown(const SpanEnd& end) { return !(end.error < 0.25 * std::fabs(end.s)); }
+
+/// Such a crossing is put at infinity where it is far away: its error would reach to where it can not be.
+SpanEnd beyond_reach(const Line& line, const SpanEnd& end) {
+    const bool far = std::fabs(end.s) * line.length > 4.0 * kReach;
+    return far && is_unknown(end) ? SpanEnd{std::copysign(kInf, end.s), 0.0, 0} : end;
+}
+
 void push(const Line& line, SpanEnd enter, SpanEnd exit, SpanList& out) {
     if (line.degenerate(enter) || line.degenerate(exit)) out.set_degenerate();
     if (exit.s - enter.s > enter.error + exit.error) out.push({enter, exit});
@@ -62,17 +73,23 @@ void push(const Line& line, SpanEnd enter, SpanEnd exit, SpanList& out) {
 constexpr SpanEnd kBegin{-kInf, 0.0, 0};
 constexpr SpanEnd kEnd{kInf, 0.0, 0};
 
-void constant_spans(const Line& line, double c, double slope, double bend, SpanList& out) {
+/// Whether the line does not cross within kReach for certain.
+bool is_settled(const Line& line, double c, double slope, double bend) {
     const double r = kReach / line.length;
-    if (std::fabs(c) <= line.error(r) + r * (std::fabs(slope) + r * std::fabs(bend)))
-        out.set_degenerate();
+    return std::fabs(c) > line.error(r) + r * (std::fabs(slope) + r * std::fabs(bend));
+}
+
+void constant_spans(const Line& line, double c, double slope, double bend, SpanList& out) {
+    if (!is_settled(line, c, slope, bend)) out.set_degenerate();
     if (c < 0.0) out.push({kBegin, kEnd});
 }
 
 void linear_spans(const Line& line, double slope, double c, SpanList& out) {
     const double s = -c / slope;
     const SpanEnd end{s, 2.0 * line.error(s) / std::fabs(slope), 0};
-    if (slope > 0.0) {
+    if (is_unknown(end) && is_settled(line, c, slope, 0.0)) {
+        constant_spans(line, c, slope, 0.0, out);
+    } else if (slope > 0.0) {
         push(line, kBegin, end, out);
     } else {
         push(line, end, kEnd, out);
@@ -129,10 +146,11 @@ void Quadric::Kernel::spans(const LocalRay<double>& ray, SpanList& out) const {
         error = slack / std::sqrt(std::max(disc, std::fabs(a) * slack));
         return SpanEnd{s, error, 0};
     };
-    const SpanEnd low = end(std::min(r1, r2));
-    const SpanEnd high = end(std::max(r1, r2));
+    const double s_low = std::min(r1, r2), s_high = std::max(r1, r2);
     const bool missed =
-        disc + std::fabs(a) * std::max(line.error(low.s), line.error(high.s)) <= 0.0;
+        disc + std::fabs(a) * std::max(line.error(s_low), line.error(s_high)) <= 0.0;
+    const SpanEnd low = beyond_reach(line, end(s_low));
+    const SpanEnd high = beyond_reach(line, end(s_high));
     if (a > 0.0) {
         if (!missed) push(line, low, high, out);
         return;
@@ -143,8 +161,8 @@ void Quadric::Kernel::spans(const LocalRay<double>& ray, SpanList& out) const {
         out.push({kBegin, kEnd});
         return;
     }
-    out.push({kBegin, low});
-    out.push({high, kEnd});
+    if (low.s > -kInf) out.push({kBegin, low});
+    if (high.s < kInf) out.push({high, kEnd});
 }
 
 }  // namespace raymo::solids
