@@ -11,7 +11,6 @@ namespace raymo::query {
 namespace {
 
 constexpr std::size_t kGeneric = 32;          // directions that fit no model
-constexpr double kNoAngle = 0x1p-40;          // sine of one that only rounding leaves
 constexpr std::uint64_t kPollEvery = 0x4000;  // nodes between two looks at the user's wish to stop
 constexpr std::size_t kLeafDirections = 8;    // leaves whose own directions are tried
 
@@ -50,17 +49,30 @@ void into(const Affine& map, const Mat3& inv, Vec3& p, Vec3& error) {
     p = inv * d;
 }
 
-/// State of a leaf just beside the point q, which lies on its boundary to within e, on the side to
-/// which d points.
+/// The same of a direction.
+void into(const Mat3& linear, const Mat3& inv, Vec3& d, Vec3& error) {
+    const Mat3 size = abs(inv);
+    const Vec3 r = size * abs(d);
+    error = size * (error + (abs(linear) * r) * (kInputError + kPointError));
+    d = inv * d;
+}
+
+/// A point on the boundary of a leaf to within `e`, and a direction `d`, known to within `d_error`.
+struct Beside {
+    Vec3 q, e;
+    Vec3 d, d_error;
+};
+
+/// State of a leaf just beside the point q, on the side to which d points. A plane goes on far from the origin of its frame,
+/// where lines are not judged well.
+Where beside_leaf(const solids::Halfspace::Kernel&, const Beside& at, solids::SpanList&) {
+    if (std::fabs(at.d.z) <= at.d_error.z) return Where::on;
+    return at.d.z > 0.0 ? Where::out : Where::in;
+}
 template <class K>
-Where beside_leaf(const K& kernel, Vec3 q, Vec3 e, Vec3 d, solids::SpanList& spans) {
+Where beside_leaf(const K& kernel, const Beside& at, solids::SpanList& spans) {
+    const auto& [q, e, d, d_error] = at;
     const double dd = dot(d, d);
-    if constexpr (std::is_same_v<K, solids::Halfspace::Kernel>) {
-        // Lines are judged near the frame's origin only, and q may lie anywhere on the plane.
-        const double no_angle = kNoAngle + e.z / kDegenerate;
-        if (std::fabs(d.z) <= std::sqrt(dd) * no_angle) return Where::on;
-        return d.z > 0.0 ? Where::out : Where::in;
-    }
     const double s_q = dot(q, d) / dd;  // q = o + s_q d
     const Vec3 o = q - d * s_q;
     spans.clear();
@@ -94,10 +106,12 @@ Locator::Locator(const scene::Scene& scene) {
     all_ = roots_.size() == 1 ? roots_[0] : graph_.unite(roots_);
 }
 
-Where Locator::where_all(Vec3 p, Vec3 reach) { return evaluate(all_, {p, reach, {}, {}}, false); }
+Where Locator::where_all(Vec3 p, Vec3 reach) {
+    return evaluate(all_, {p, reach, {}, {}, {}}, false);
+}
 
 Where Locator::locate(std::uint32_t root, Vec3 p) {
-    const Place start{p, {}, {}, {}};
+    const Place start{p, {}, {}, {}, {}};
     const Where first = evaluate(root, start, false);
     if (first != Where::on || leaves_on_ == 1) return first;
 
@@ -182,7 +196,7 @@ Where Locator::evaluate(std::uint32_t root, const Place& start, bool beside) {
                 const Affine& map = csg::as_transform(*node.source).map;
                 const Mat3& inv = graph_.inverse(node.map);
                 into(map, inv, place.p, place.error);
-                place.direction = inv * place.direction;
+                into(map.linear, inv, place.direction, place.direction_error);
                 place.outward = place.outward * map.linear;
                 index = node.first;
             } else {
@@ -235,12 +249,10 @@ Where Locator::leaf(const csg::LeafNode& node, const Place& outer, bool beside) 
         }
         return w;
     }
+    into(map.linear, inv, place.direction, place.direction_error);
+    const Beside at{place.p, place.error, place.direction, place.direction_error};
     solids::SpanList spans;
-    return std::visit(
-        [&](const auto& k) {
-            return beside_leaf(k, place.p, place.error, inv * place.direction, spans);
-        },
-        node.solid.kernel);
+    return std::visit([&](const auto& k) { return beside_leaf(k, at, spans); }, node.solid.kernel);
 }
 
 }  // namespace raymo::query

@@ -56,6 +56,7 @@ private:
         Vec3 p;
         Vec3 error;
         Vec3 direction;
+        Vec3 direction_error;
         Mat3 outward;  ///< linear map from this frame to the world
     };
     struct Frame {

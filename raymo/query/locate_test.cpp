@@ -51,6 +51,21 @@ TEST_CASE("locate: two halves make a whole on their common plane, far from its o
     }
 }
 
+TEST_CASE("locate: a common plane is none, whatever it was written in") {
+    const csg::Solid block = move(test::block(8, 8, 8), {-4, -4, -4});
+    const auto scaled = [](const csg::Solid& s, Vec3 by) { return mapped(s, scaling(by)); };
+    for (const csg::Solid& half :
+         {scaled(halfspace({1, 2, 2}, 3e11), {1e-11, 1e-11, 1e-11}), halfspace({1, 2, 2}, 3),
+          move(halfspace({1, 2, 2}, 0), {1e12 + 1, -5e11 + 1, 0}),
+          scaled(halfspace({1, 2, 2}, 3e-11), {1e11, 1e11, 1e11})}) {
+        Locator halves((block & half) + (block - half));
+        CHECK(halves.where({1, 1, 0}) == Where::in);
+        CHECK(halves.where({3, -3, 1.5}) == Where::in);
+    }
+    const csg::Solid flat = scaled(halfspace({0, 0, 1}, 0), {1, 1, 1e13});
+    CHECK(Locator((block & flat) + (block - flat)).where({1, 1, 0}) == Where::in);
+}
+
 TEST_CASE("locate: a solid without itself is nothing, with itself the same") {
     const csg::Solid s = move(sphere(1.0), {0.1, 0.2, 0.3});
     Locator none(s - s);
