@@ -37,8 +37,8 @@ struct BaseRay {
 
 [[nodiscard]] BaseRay base_ray(const CompiledSolid& solid, const RayQuery& query);
 
-/// The ray moved sideways by `step` (more at each attempt), in a new generic direction at each attempt. `on_surface`: it
-/// starts on a surface, which it then misses by as much.
+/// The ray moved sideways by `step` (times 4 to the number of the attempt), in a generic direction that differs by the
+/// attempt. `on_surface`: it starts on a surface, which it then misses by as much.
 [[nodiscard]] BaseRay moved_aside(BaseRay ray, double step, int attempt, bool on_surface);
 
 }  // namespace raymo::trace

@@ -15,7 +15,7 @@
 #include <cmath>
 
 #include "raymo/core/assert.hpp"
-#include "raymo/trace/blocks.hpp"
+#include "raymo/trace/frames.hpp"
 #include "raymo/trace/lookahead.hpp"
 #include "raymo/trace/placement.hpp"
 #include "raymo/trace/units.hpp"
@@ -31,6 +31,8 @@ constexpr double kShareLeaves = 64.0;
 constexpr int kMaxDepth = 40;
 /// In the place of a compiled solid: it reaches to infinity, so only its surroundings can cut it to size.
 constexpr std::uint32_t kUnbounded = kNone - 1;
+/// A displacement of so many times the model's size says that the leaf may be anywhere.
+constexpr double kLost = 16.0;
 
 }  // namespace
 
@@ -45,7 +47,7 @@ struct Flattener::Item {
 
 struct Flattener::Pending {
     Leaf leaf;            ///< centre in the model frame until normalised
-    double displacement;  ///< of the leaf, in the model frame
+    double displacement;  ///< of the leaf, in the model frame; without its tilt where it is endless
     bool endless;         ///< the leaf alone reaches to infinity
     double tilt;  ///< of an endless leaf, per distance from its centre: error of its placement
     csg::MaterialId material;
@@ -174,70 +176,6 @@ Result<void> Flattener::expand(Work& work, std::span<const csg::Solid> parts, in
 
 namespace {
 
-using Long = long double;
-
-/// An entry of I - A B, `one` on the diagonal, of a row of A and a column of B.
-Long residual(double one, Vec3 row, Vec3 column) {
-    return one - static_cast<Long>(row.x) * column.x - static_cast<Long>(row.y) * column.y -
-           static_cast<Long>(row.z) * column.z;
-}
-
-/// The inverse, with one step of Newton's method X + X (I - A X) against the cancellation in the cofactors of maps that
-/// stretch very differently along oblique axes [Higham02 14.1].
-Mat3 refined_inverse(const Mat3& a) {
-    const Mat3 x = inverse(a);
-    Mat3 out;
-    for (int j = 0; j < 3; ++j) {
-        const Vec3 column = x.column(j);
-        const Long rest_0 = residual(j == 0 ? 1.0 : 0.0, a.row[0], column);
-        const Long rest_1 = residual(j == 1 ? 1.0 : 0.0, a.row[1], column);
-        const Long rest_2 = residual(j == 2 ? 1.0 : 0.0, a.row[2], column);
-        for (std::size_t i = 0; i < 3; ++i) {
-            const Vec3 row = x.row[i];
-            out.row[i][j] =
-                static_cast<double>(row[j] + row.x * rest_0 + row.y * rest_1 + row.z * rest_2);
-        }
-    }
-    return out;
-}
-
-/// The frame of a leaf whose canonical frame is placed by `map`, in the model's scale.
-Frame frame_of(const Affine& map, std::uint32_t type, std::uint32_t index) {
-    Frame frame{};
-    frame.to_local = refined_inverse(map.linear);
-    frame.type = type;
-    frame.index = index;
-    frame.in_blocks = answers_blocks(type);
-    frame.reach = 2.0;
-    const std::array<Vec3, 3>& row = frame.to_local.row;
-    frame.diagonal = row[0].y == 0.0 && row[0].z == 0.0 && row[1].x == 0.0 && row[1].z == 0.0 &&
-                     row[2].x == 0.0 && row[2].y == 0.0;
-    // How far the map is from the true inverse, seen from the leaf: the residual I - X A, summed up by rows.
-    constexpr Long kLong = std::numeric_limits<Long>::epsilon();
-    for (std::size_t r = 0; r < 3; ++r) {
-        Long sum = 0;
-        for (int c = 0; c < 3; ++c) {
-            const Vec3 column = map.linear.column(c);
-            const Long entry = residual(static_cast<int>(r) == c ? 1.0 : 0.0, row[r], column);
-            // Rounding of the entry; that of its own is nothing beside it.
-            const double size = dot(abs(row[r]), abs(column));
-            sum += std::fabs(entry) + 4.5 * kLong * size;
-        }
-        frame.error[static_cast<int>(r)] = 2.0 * static_cast<double>(sum) + 8.0 * kUnitRoundoff;
-    }
-    // The greatest stretch is that of a row when the rows are orthogonal; the root of the sum of squares is a bound.
-    frame.row_length = {norm(row[0]), norm(row[1]), norm(row[2])};
-    const double long_row = max_norm(frame.row_length);
-    const Vec3 unit[3] = {row[0] / long_row, row[1] / long_row, row[2] / long_row};
-    const auto orthogonal = [&](std::size_t a, std::size_t b) {
-        return std::fabs(dot(unit[a], unit[b])) <= 0x1p-40;
-    };
-    frame.stretch = orthogonal(0, 1) && orthogonal(1, 2) && orthogonal(2, 0)
-                        ? 1.0
-                        : norm(frame.row_length / long_row);
-    return frame;
-}
-
 /// Whether a leaf can be computed with there: squares of its sizes neither overflow nor vanish.
 bool is_placeable(Vec3 offset) { return is_finite(offset) && max_norm(offset) <= 1e90; }
 bool is_placeable(const Mat3& linear) {
@@ -281,13 +219,13 @@ Result<void> Flattener::add_leaf(Work& work, const csg::LeafNode& node, const Vi
     pending.endless = !item.box.bounded();
     if (!is_known) {
         Frame frame = frame_of(place.map, type, kernel);
+        const Vec3 row_length = frame.row_length;
         if (pending.endless) frame.reach = std::numeric_limits<double>::infinity();
-        last_ = {type, kernel, place.map.linear, tables_.frame(frame)};
+        if (type == kHalfspace) frame = half_space_frame(frame);
+        last_ = {type, kernel, place.map.linear, row_length, tables_.frame(frame)};
     }
     pending.leaf.frame = last_.frame;
-    if (pending.endless) {
-        pending.tilt = norm(place.linear_error * tables_.frames()[last_.frame].row_length);
-    }
+    if (pending.endless) pending.tilt = norm(place.linear_error * last_.row_length);
     pending.primitive = node.primitive;
     enlist(work, at, item, pending, place, node.span);
     return {};
@@ -297,7 +235,8 @@ Result<void> Flattener::add_leaf(Work& work, const csg::LeafNode& node, const Vi
 void Flattener::enlist(Work& work, const Visit& at, Item item, Pending pending,
                        const Placement& place, SourceSpan span) {
     pending.leaf.centre = place.map.offset;
-    const Vec3 tilt = place.linear_error * Vec3{1, 1, 1};
+    // What is endless has no size of its own, so that its tilt is counted over the whole model.
+    const Vec3 tilt = pending.endless ? Vec3{} : place.linear_error * Vec3{1, 1, 1};
     pending.displacement = norm(tilt + place.offset_error);
     pending.material = at.material;
     pending.span = span;
@@ -429,27 +368,6 @@ void Flattener::make_groups(Work& work, CompiledSolid& out) {
     }
 }
 
-namespace {
-
-/// A half-space has neither a size nor a place along its plane. Its frame gets those of the model, so that what is near and
-/// what is far on the plane is judged as the model sees it.
-constexpr std::uint32_t kHalfspace = solids::Inventory::index_of<solids::Halfspace>();
-
-/// Gives the frame units about as long as those of the normalised frame that it stands in.
-void take_size_of_model(Frame& frame) {
-    const double shrink = std::ldexp(1.0, -std::ilogb(max_norm(frame.row_length)));
-    for (Vec3& row : frame.to_local.row) row *= shrink;
-    frame.row_length *= shrink;
-}
-
-/// The point nearest to `p` of the plane through `point` with the unit normal `n`.
-Vec3 on_plane(Vec3 p, Vec3 point, Vec3 n) {
-    const Vec3 step = p - point;
-    return point + (step - n * dot(n, step));
-}
-
-}  // namespace
-
 void Flattener::normalise(Work& work, CompiledSolid& out) {
     for (const Item& item : work.items) {
         if (item.kind == Kind::leaf && !item.box.empty()) out.bounds = hull(out.bounds, item.box);
@@ -461,9 +379,9 @@ void Flattener::normalise(Work& work, CompiledSolid& out) {
 
     const auto first_frame = static_cast<std::uint32_t>(data_.frames.size());
     for (Frame& frame : tables_.frames()) {
+        if (frame.type == kHalfspace) continue;  // has this size already
         for (Vec3& row : frame.to_local.row) row *= 1.0 / out.scale;
         frame.row_length *= 1.0 / out.scale;
-        if (frame.type == kHalfspace) take_size_of_model(frame);
     }
     if (data_.frames.empty()) {
         data_.frames = std::move(tables_.frames());
@@ -487,11 +405,12 @@ void Flattener::normalise(Work& work, CompiledSolid& out) {
             displacement += reach * (pending.tilt + 16.0 * kUnitRoundoff);
         }
         leaf.frame += first_frame;
-        if (const Frame& frame = data_.frames[leaf.frame]; frame.type == kHalfspace) {
-            leaf.centre = on_plane(out.centre, leaf.centre, unit(frame.to_local.row[2]));
-        }
         leaf.centre = (leaf.centre - out.centre) * out.scale;
-        leaf.displacement = float_above(displacement * out.scale);
+        displacement *= out.scale;
+        if (const Frame& frame = data_.frames[leaf.frame]; frame.type == kHalfspace) {
+            place_half_space(frame, leaf.centre, displacement);
+        }
+        leaf.displacement = float_above(std::min(displacement, kLost));
         leaf.order = order;
         const Aabb box{(clip.lo - out.centre) * out.scale, (clip.hi - out.centre) * out.scale};
         // The float test of a ray errs by less than 2^-18 for origins within 8 of the centre; a

@@ -51,6 +51,7 @@ private:
         std::uint32_t type = kNone;
         std::uint32_t kernel = kNone;
         Mat3 linear;
+        Vec3 row_length;  ///< of its inverse
         std::uint32_t frame = kNone;
     } last_;
 };

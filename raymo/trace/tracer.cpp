@@ -124,8 +124,9 @@ struct Tracer::State {
             } else {
                 // As a last resort the ray that was moved least: longer steps may lead into another place.
                 step = std::max(step, lane.step);
-                const int length = ++attempts == kAttempts ? 0 : attempts - 1;
-                ray = moved_aside(straight, step, length, query.on_surface);
+                const int which = attempts + 1 == kAttempts ? 0 : attempts;
+                ray = moved_aside(straight, step, which, query.on_surface);
+                ++attempts;
             }
         }
     }
