@@ -16,8 +16,6 @@ constexpr double kNoValue = 128.0 * kUnitRoundoff;
 /// Along axes with a value below this part of the largest one the solid is long, and its centre may be far from what the
 /// user looks at; see QuadricShape::frame.
 constexpr double kWeakValue = 0x1p-8;
-/// A surface that is longer than this, compared to its size where the user looks, is not looked at as a whole.
-constexpr double kLong = 0x1p20;
 
 /// A sum of products with twice the working precision [OgitaRumpOishi05].
 class LongSum {
@@ -116,7 +114,7 @@ double size_of(const QuadricShape& shape) {
     return is_usable(length) ? length : 1.0;
 }
 
-/// a + b, and its error where it is what is left of far greater numbers. `error`: relative, of b beside its rounding.
+/// a + b for b >= 0; with the error of the sum, where much larger numbers cancel. `error`: relative, of b beside its rounding.
 double outward_sum(double a, double b, double error) {
     const double sum = a + b;
     if (!(std::fabs(sum) < 0x1p-8 * b)) return sum;
@@ -196,11 +194,7 @@ QuadricShape::Frame QuadricShape::frame(const QuadraticForm& form) const {
             (!has_slope() && offset * offset * std::fabs(value[i]) > 16.0 * std::fabs(level));
         if (placed[i]) place += axis[i] * offset;
     }
-    // The surface as it is seen from there. What is so much longer is a cylinder as far as one looks.
-    const double height = form(place);
-    const double here = std::sqrt(std::fabs(height) / largest);
-    double size = size_of(*this);
-    if (!has_slope() && is_usable(here) && size > kLong * here) size = std::sqrt(kLong) * here;
+    const double size = size_of(*this);
     // Along the axes that are left, on to the surface, if that is near.
     Vec3 rest = form.half_gradient(place);
     for (std::size_t i = 0; i < 3; ++i) {
@@ -208,12 +202,15 @@ QuadricShape::Frame QuadricShape::frame(const QuadraticForm& form) const {
     }
     const double steepness = dot(rest, rest);
     if (!(steepness > 0.0)) return {place, size};
+    const double height = form(place);
     const Vec3 step = rest * (-0.5 * height / steepness);
     // Rounding in a frame of this size costs dot(step, step) / size at `place`, and the user's own numbers have that of
     // their distance from the origin.
     const bool near = dot(step, step) <= 256.0 * size * (norm(place) + size);
     if (near || largest == 0.0) return {place + step, size};
-    return {place, has_slope() && is_usable(here) ? here : size};
+    // What the slope does is hardly seen here: the surface is a cylinder's as far as one looks.
+    const double radius = has_slope() ? std::sqrt(std::fabs(height) / largest) : size;
+    return {place, is_usable(radius) ? radius : size};
 }
 
 bool QuadricShape::has_negative_value() const {

@@ -13,9 +13,11 @@
 //
 // |A| <= E2 means that the sign of A is not known: the line is parallel to a generator, and one
 // root or both lie farther away than the line is known to be straight. A is then taken as 0; so is
-// B when 2 |B| <= E1, and the line is inside or outside altogether. It is, too, where the root that
-// is left has an error of its own distance: A is not known to be 0 either, and the error bound of a
-// straight line says nothing of where it ends.
+// B when 2 |B| <= E1, and the line is inside or outside altogether.
+//
+// A root whose error is as large as its distance says that it may be anywhere, where in truth it is far away or missing:
+// A is not known to within its half. Where f has one sign all over the model the line is inside or outside altogether; one
+// such root of two lies at infinity. How far the model reaches is told by e, which is some roundings of that at least.
 #include <cmath>
 #include <limits>
 
@@ -35,6 +37,7 @@ struct Line {
     double length;      ///< |d|
     double e0, e1, e2;  ///< of E(s)
     double e_size;      ///< largest component of e
+    double reach;       ///< the model ends within so many lengths of the frame
 
     [[nodiscard]] double error(double s) const {
         const double t = std::fabs(s);
@@ -56,13 +59,23 @@ double difference_of_products(double p, double q, double r, double s) {
     return std::fma(p, q, -rs) + std::fma(-r, s, rs);
 }
 
-/// Neither the place of the crossing is known, nor whether there is one.
+/// Neither the place of the crossing is known, nor whether there is one: A may as well be 0, or have the other sign.
 bool is_unknown(const SpanEnd& end) { return !(end.error < 0.25 * std::fabs(end.s)); }
 
-/// Such a crossing is put at infinity where it is far away: its error would reach to where it can not be.
-SpanEnd beyond_reach(const Line& line, const SpanEnd& end) {
-    const bool far = std::fabs(end.s) * line.length > 4.0 * kReach;
-    return far && is_unknown(end) ? SpanEnd{std::copysign(kInf, end.s), 0.0, 0} : end;
+/// Both ends as they are, or at infinity where they are unknown and far beyond the model. Their error bounds reach back into
+/// it, but the crossings do not, since A is known to within its half.
+struct Ends {
+    SpanEnd low, high;
+};
+Ends within_reach(const Line& line, SpanEnd low, SpanEnd high) {
+    const auto beyond = [&](const SpanEnd& end) {
+        return std::fabs(end.s) * line.length > 4.0 * line.reach && is_unknown(end);
+    };
+    if (beyond(low)) low = {std::copysign(kInf, low.s), 0.0, 0};
+    if (beyond(high)) high = {std::copysign(kInf, high.s), 0.0, 0};
+    if (low.s == kInf) high = low;
+    if (high.s == -kInf) low = high;
+    return {low, high};
 }
 
 void push(const Line& line, SpanEnd enter, SpanEnd exit, SpanList& out) {
@@ -73,9 +86,9 @@ void push(const Line& line, SpanEnd enter, SpanEnd exit, SpanList& out) {
 constexpr SpanEnd kBegin{-kInf, 0.0, 0};
 constexpr SpanEnd kEnd{kInf, 0.0, 0};
 
-/// Whether the line does not cross within kReach for certain.
+/// Whether the line does not cross within the model for certain.
 bool is_settled(const Line& line, double c, double slope, double bend) {
-    const double r = kReach / line.length;
+    const double r = line.reach / line.length;
     return std::fabs(c) > line.error(r) + r * (std::fabs(slope) + r * std::fabs(bend));
 }
 
@@ -84,11 +97,11 @@ void constant_spans(const Line& line, double c, double slope, double bend, SpanL
     if (c < 0.0) out.push({kBegin, kEnd});
 }
 
-void linear_spans(const Line& line, double slope, double c, SpanList& out) {
+void linear_spans(const Line& line, double c, double slope, double bend, SpanList& out) {
     const double s = -c / slope;
     const SpanEnd end{s, 2.0 * line.error(s) / std::fabs(slope), 0};
-    if (is_unknown(end) && is_settled(line, c, slope, 0.0)) {
-        constant_spans(line, c, slope, 0.0, out);
+    if (is_unknown(end) && is_settled(line, c, slope, bend)) {
+        constant_spans(line, c, slope, bend, out);
     } else if (slope > 0.0) {
         push(line, kBegin, end, out);
     } else {
@@ -109,6 +122,7 @@ void Quadric::Kernel::spans(const LocalRay<double>& ray, SpanList& out) const {
     Line line{};
     line.length = std::sqrt(ray.dd);
     line.e_size = max_norm(e);
+    line.reach = std::max(kReach, line.e_size / (4.0 * kUnitRoundoff));
     const double g0 = dot(abs(g), e);
     const double g1 = dot(abs(ad), e);
     const double q = dot(e, size * e);
@@ -126,7 +140,7 @@ void Quadric::Kernel::spans(const LocalRay<double>& ray, SpanList& out) const {
         if (!(2.0 * std::fabs(b) > line.e1)) {
             constant_spans(line, c, 2.0 * b, a, out);
         } else {
-            linear_spans(line, 2.0 * b, c, out);
+            linear_spans(line, c, 2.0 * b, a, out);
         }
         return;
     }
@@ -149,8 +163,7 @@ void Quadric::Kernel::spans(const LocalRay<double>& ray, SpanList& out) const {
     const double s_low = std::min(r1, r2), s_high = std::max(r1, r2);
     const bool missed =
         disc + std::fabs(a) * std::max(line.error(s_low), line.error(s_high)) <= 0.0;
-    const SpanEnd low = beyond_reach(line, end(s_low));
-    const SpanEnd high = beyond_reach(line, end(s_high));
+    const auto [low, high] = within_reach(line, end(s_low), end(s_high));
     if (a > 0.0) {
         if (!missed) push(line, low, high, out);
         return;
