@@ -196,7 +196,7 @@ Where Locator::evaluate(std::uint32_t root, const Place& start, bool beside) {
                 const Affine& map = csg::as_transform(*node.source).map;
                 const Mat3& inv = graph_.inverse(node.map);
                 into(map, inv, place.p, place.error);
-                into(map.linear, inv, place.direction, place.direction_error);
+                if (beside) into(map.linear, inv, place.direction, place.direction_error);
                 place.outward = place.outward * map.linear;
                 index = node.first;
             } else {

@@ -46,7 +46,7 @@ TEST_CASE("trace: a line that is nearly a generator ends where the block does") 
 }
 
 TEST_CASE("trace: a quadric that is next to a cylinder is met as one") {
-    for (const double bend : {0.0, 1e-12, 1e-16, 1e-24, 1e-30}) {
+    for (const double bend : {0.0, 1e-9, 1e-12}) {
         CAPTURE(bend);
         // x^2 + y^2 + bend z^2 - 2e-6 z <= 4
         const csg::Solid pole = within_block(primitive(

@@ -31,8 +31,6 @@ constexpr double kShareLeaves = 64.0;
 constexpr int kMaxDepth = 40;
 /// In the place of a compiled solid: it reaches to infinity, so only its surroundings can cut it to size.
 constexpr std::uint32_t kUnbounded = kNone - 1;
-/// A displacement of so many times the model's size says that the leaf may be anywhere.
-constexpr double kLost = 16.0;
 
 }  // namespace
 
@@ -49,7 +47,7 @@ struct Flattener::Pending {
     Leaf leaf;            ///< centre in the model frame until normalised
     double displacement;  ///< of the leaf, in the model frame; without its tilt where it is endless
     bool endless;         ///< the leaf alone reaches to infinity
-    double tilt;  ///< of an endless leaf, per distance from its centre: error of its placement
+    Vec3 tilt;  ///< displacement per distance from the centre of an endless leaf, along the axes
     csg::MaterialId material;
     SourceSpan span;
     std::uint32_t primitive;
@@ -196,6 +194,13 @@ float float_above(double v) {
                                        : std::nextafter(f, std::numeric_limits<float>::infinity());
 }
 
+/// Of a leaf or an instance in its own place. What is endless has no size of its own, so that its tilt is counted over the
+/// whole model.
+double displacement_of(const Placement& place, bool endless) {
+    const Vec3 tilt = endless ? Vec3{} : place.linear_error * Vec3{1, 1, 1};
+    return norm(tilt + place.offset_error);
+}
+
 }  // namespace
 
 Result<void> Flattener::add_leaf(Work& work, const csg::LeafNode& node, const Visit& at) {
@@ -217,15 +222,24 @@ Result<void> Flattener::add_leaf(Work& work, const csg::LeafNode& node, const Vi
     item.box = std::visit([&](const auto& k) { return k.bounds(place.map); }, node.solid.kernel);
     Pending pending{};
     pending.endless = !item.box.bounded();
-    if (!is_known) {
-        Frame frame = frame_of(place.map, type, kernel);
-        const Vec3 row_length = frame.row_length;
-        if (pending.endless) frame.reach = std::numeric_limits<double>::infinity();
-        if (type == kHalfspace) frame = half_space_frame(frame);
-        last_ = {type, kernel, place.map.linear, row_length, tables_.frame(frame)};
+    if (type == kHalfspace) {
+        const HalfSpace half = half_space(at.place, node.solid.to_object.linear.column(2), kernel);
+        pending.leaf.frame = tables_.frame(half.frame);
+        pending.tilt = half.tilt;
+        pending.displacement = dot(abs(half.frame.to_local.row[2]), place.offset_error);
+    } else {
+        if (!is_known) {
+            Frame frame = frame_of(place.map, type, kernel);
+            if (pending.endless) frame.reach = std::numeric_limits<double>::infinity();
+            last_ = {type, kernel, place.map.linear, frame.row_length, tables_.frame(frame)};
+        }
+        pending.leaf.frame = last_.frame;
+        pending.displacement = displacement_of(place, pending.endless);
+        if (pending.endless) {
+            const double tilt = norm(place.linear_error * last_.row_length) + 16.0 * kUnitRoundoff;
+            pending.tilt = {tilt, tilt, tilt};
+        }
     }
-    pending.leaf.frame = last_.frame;
-    if (pending.endless) pending.tilt = norm(place.linear_error * last_.row_length);
     pending.primitive = node.primitive;
     enlist(work, at, item, pending, place, node.span);
     return {};
@@ -235,9 +249,6 @@ Result<void> Flattener::add_leaf(Work& work, const csg::LeafNode& node, const Vi
 void Flattener::enlist(Work& work, const Visit& at, Item item, Pending pending,
                        const Placement& place, SourceSpan span) {
     pending.leaf.centre = place.map.offset;
-    // What is endless has no size of its own, so that its tilt is counted over the whole model.
-    const Vec3 tilt = pending.endless ? Vec3{} : place.linear_error * Vec3{1, 1, 1};
-    pending.displacement = norm(tilt + place.offset_error);
     pending.material = at.material;
     pending.span = span;
     pending.item = static_cast<std::uint32_t>(work.items.size());
@@ -288,6 +299,7 @@ Result<bool> Flattener::add_instance(Work& work, const Visit& at, int depth) {
     item.box = transformed(at.place.map, solid.bounds);
     Pending pending{};
     pending.leaf.frame = tables_.frame(frame_of(place.map, kInstanceType, index));
+    pending.displacement = displacement_of(place, false);
     enlist(work, at, item, pending, place, node.span);
     return true;
 }
@@ -397,19 +409,17 @@ void Flattener::normalise(Work& work, CompiledSolid& out) {
         ++order;
         if (clip.empty()) continue;
         Leaf leaf = pending.leaf;
+        const Vec3 apart = leaf.centre - out.centre;
+        const bool is_half_space = data_.frames[first_frame + leaf.frame].type == kHalfspace;
         double displacement = pending.displacement;
-        // Rounding of the subtraction below; an endless leaf errs by its tilt over the whole model.
-        displacement += 2.0 * kUnitRoundoff * (norm(leaf.centre) + far);
-        if (pending.endless) {
-            const double reach = norm(leaf.centre - out.centre) + radius;
-            displacement += reach * (pending.tilt + 16.0 * kUnitRoundoff);
-        }
-        leaf.frame += first_frame;
-        leaf.centre = (leaf.centre - out.centre) * out.scale;
+        // Rounding of the subtraction, which a half-space has in its tilt.
+        if (!is_half_space) displacement += 2.0 * kUnitRoundoff * (norm(leaf.centre) + far);
+        // An endless leaf errs by its tilt over the whole model.
+        displacement += dot(pending.tilt, abs(apart) + Vec3{radius, radius, radius});
         displacement *= out.scale;
-        if (const Frame& frame = data_.frames[leaf.frame]; frame.type == kHalfspace) {
-            place_half_space(frame, leaf.centre, displacement);
-        }
+        leaf.frame += first_frame;
+        leaf.centre = apart * out.scale;
+        if (is_half_space) place_half_space(data_.frames[leaf.frame], leaf.centre, displacement);
         leaf.displacement = float_above(std::min(displacement, kLost));
         leaf.order = order;
         const Aabb box{(clip.lo - out.centre) * out.scale, (clip.hi - out.centre) * out.scale};

@@ -51,7 +51,7 @@ private:
         std::uint32_t type = kNone;
         std::uint32_t kernel = kNone;
         Mat3 linear;
-        Vec3 row_length;  ///< of its inverse
+        Vec3 row_length;
         std::uint32_t frame = kNone;
     } last_;
 };

@@ -1,6 +1,8 @@
 #include "raymo/trace/frames.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "raymo/math/tolerance.hpp"
 #include "raymo/trace/blocks.hpp"
@@ -34,10 +36,6 @@ Mat3 refined_inverse(const Mat3& a) {
     }
     return out;
 }
-
-/// How far from the middle of the model a plane stands that passes it by. Its error bounds and those of the rays are smaller
-/// than what this leaves, and the half-space's kernel watches twice as far.
-constexpr double kOutside = 4.0;
 
 bool is_diagonal(const Mat3& m) {
     return m.row[0].y == 0.0 && m.row[0].z == 0.0 && m.row[1].x == 0.0 && m.row[1].z == 0.0 &&
@@ -81,27 +79,40 @@ Frame frame_of(const Affine& map, std::uint32_t type, std::uint32_t index) {
     return frame;
 }
 
-Frame half_space_frame(Frame frame) {
-    Mat3& m = frame.to_local;
-    m.row[2] = unit(m.row[2]);
-    make_frame(m.row[2], m.row[0], m.row[1]);
+// The normal n of the plane under the map M becomes n M^-1: not that of a turned frame, of which each entry is known to one
+// rounding of 1, since maps that stretch make much of those that are small.
+HalfSpace half_space(const Placement& place, Vec3 normal, std::uint32_t index) {
+    const Mat3 inv = refined_inverse(place.map.linear);
+    const Vec3 image = transposed_times(inv, normal);
+    const Vec3 n = unit(image);
+    HalfSpace out{};
+    Frame& frame = out.frame;
+    frame.to_local.row[2] = n;
+    make_frame(n, frame.to_local.row[0], frame.to_local.row[1]);
+    frame.type = kHalfspace;
+    frame.index = index;
+    frame.in_blocks = answers_blocks(kHalfspace);
+    frame.reach = std::numeric_limits<double>::infinity();
     frame.row_length = {1.0, 1.0, 1.0};
-    const double rounding = 8.0 * kUnitRoundoff;
-    frame.error = {rounding, rounding, rounding};
-    frame.diagonal = is_diagonal(m);
-    frame.stretch = 1.0 + rounding;
-    return frame;
+    constexpr double kRounding = 8.0 * kUnitRoundoff;
+    frame.error = {kRounding, kRounding, kRounding};
+    frame.diagonal = is_diagonal(frame.to_local);
+    frame.stretch = 1.0 + kRounding;
+
+    // Of the entries of n and of M^-1, of those of M, and of the length of 1.
+    const Mat3 size = abs(inv);
+    const Vec3 given = transposed_times(size, abs(normal)) * (kInputError + kRounding);
+    const Vec3 map = transposed_times(size, transposed_times(place.linear_error, abs(n)));
+    out.tilt = given * (1.0 / norm(image)) + map + abs(n) * kRounding;
+    return out;
 }
 
 void place_half_space(const Frame& frame, Vec3& centre, double& displacement) {
     const Vec3 n = frame.to_local.row[2];
     const double depth = dot(n, centre);
-    if (std::fabs(depth) - displacement > kOutside) {
-        centre = n * std::copysign(kOutside, depth);
-        displacement = 0.0;
-    } else {
-        centre = n * depth;
-    }
+    const double shown = std::clamp(depth, -kOutside, kOutside);
+    if (std::fabs(depth) - displacement > kOutside) displacement = 0.0;
+    centre = n * shown;
 }
 
 }  // namespace raymo::trace

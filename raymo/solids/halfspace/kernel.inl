@@ -8,7 +8,7 @@
 // that it may cross within `reach` of the leaf's origin: then it is degenerate, and so is a line
 // that crosses there at so small an angle that the crossing is uncertain by more than kDegenerate
 // of its distance. Those who look at a model as a whole choose a frame of its size, near it (see
-// trace/flatten.cpp), so that what happens farther away is of no interest.
+// trace/frames.hpp), so that what happens farther away is of no interest.
 template <class R, class M>
 RAYMO_INLINE void halfspace_spans(const LocalRay<R>& ray, LaneSpans<R, M, 1>& out) {
     const R inf = R(std::numeric_limits<double>::infinity());
