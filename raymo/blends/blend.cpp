@@ -9,6 +9,7 @@
 
 #include "raymo/blends/corner.hpp"
 #include "raymo/blends/largest.hpp"
+#include "raymo/blends/touching.hpp"
 #include "raymo/blends/tube.hpp"
 #include "raymo/blends/vertex.hpp"
 
@@ -97,6 +98,32 @@ std::optional<std::vector<Corner>> settled(const Body& body, std::vector<Segment
     return *std::move(corners);
 }
 
+bool is_inside(const csg::Solid& solid, Vec3 p) {
+    const auto body = Body::make(csg::Op::unite, {solid});
+    return body && body->where(p) != solids::Where::out;
+}
+
+Failure touch(const Body& body, std::size_t face_a, std::size_t face_b, const std::string& where) {
+    return fail(ErrorCode::out_of_range,
+                fmt::format("{} and {} touch each other{}", body.name_of(body.faces()[face_a]),
+                            body.name_of(body.faces()[face_b]), where),
+                "move or resize one of them so that they cross at an angle");
+}
+
+/// An edge that has no angle can not be rolled along, and would be left as it is without a word.
+Result<void> check_touching(const Body& body, bool within_operands, std::optional<Edges> only,
+                            const std::vector<Segment>& edges, const Form& form,
+                            const Spend& spend) {
+    // An edge that is chosen is there.
+    if (form.near) return {};
+    const auto chosen = [&](Vec3 p) { return !form.where || is_inside(form.where, p); };
+    auto touching = find_touching(body, within_operands, only, edges, chosen, spend);
+    if (!touching) return Failure(std::move(touching).error());
+    if (!*touching) return {};
+    const auto& [face_a, face_b, at] = **touching;
+    return touch(body, face_a, face_b, " at " + place_text(body, at));
+}
+
 Failure does_not_fit(const Body& body, const std::vector<Segment>& segments, std::size_t which,
                      const Fitting& fitting, const Form& form, const Spend& spend) {
     const Segment& segment = segments[which];
@@ -107,13 +134,7 @@ Failure does_not_fit(const Body& body, const std::vector<Segment>& segments, std
                                 body.name_of(body.faces()[segment.face_b])),
                     "move or resize one of them, or choose other edges with `near` or `where`");
     }
-    if (fitting.fit == Fit::touching) {
-        return fail(
-            ErrorCode::out_of_range,
-            fmt::format("{} and {} touch each other", body.name_of(body.faces()[segment.face_a]),
-                        body.name_of(body.faces()[segment.face_b])),
-            "move or resize one of them so that they cross at an angle");
-    }
+    if (fitting.fit == Fit::touching) return touch(body, segment.face_a, segment.face_b, "");
     std::string message = fmt::format("a ball of radius {:g} does not fit between {} and {}",
                                       form.radius, body.name_of(body.faces()[segment.face_a]),
                                       body.name_of(body.faces()[segment.face_b]));
@@ -186,11 +207,6 @@ Failure is_too_sharp(const Body& body, const Segment& segment, const Form& form,
                          body.name_of(body.faces()[segment.face_a]),
                          body.name_of(body.faces()[segment.face_b]), what, radius),
              std::move(hint)));
-}
-
-bool is_inside(const csg::Solid& solid, Vec3 p) {
-    const auto body = Body::make(csg::Op::unite, {solid});
-    return body && body->where(p) != solids::Where::out;
 }
 
 /// Distance of a point from a segment; along a curve in space from its nearest node or so.
@@ -316,6 +332,8 @@ Result<Blended> blend(const Body& body, csg::Solid sharp, bool within_operands,
     auto found = find_segments(body, within_operands, std::min(form.radius, size), spend);
     if (!found) return Failure(std::move(found).error());
     std::vector<Segment>& segments = *found;
+    if (auto apart = check_touching(body, within_operands, only, segments, form, spend); !apart)
+        return Failure(std::move(apart).error());
     const auto go_on = [&](double work) { return !spend || spend(work); };
     const Failure stopped = fail(ErrorCode::cancelled, "stopped");
     if (only) {
@@ -327,7 +345,6 @@ Result<Blended> blend(const Body& body, csg::Solid sharp, bool within_operands,
         !known) {
         return Failure(std::move(known).error());
     }
-
     if (!go_on(static_cast<double>(segments.size()))) return stopped;
     auto corners = find_corners(body, segments, form.profile, form.radius);
     if (!corners) return Failure(std::move(corners).error());

@@ -48,7 +48,8 @@ struct Blended {
 };
 
 /// The Boolean of the operands with the edges blended that arise between faces of different operands. Errors name the two
-/// surfaces: radius too large (with the largest that works, or one that does), faces that can not be blended; unbounded; limit.
+/// surfaces: radius too large (with the largest that works, or one that does), faces that touch without crossing, faces that can not be
+/// blended; unbounded; limit.
 /// Cost: about 1 us for each pair of faces whose boxes meet and each face beside them; to find the largest radius up to 1.5 s.
 [[nodiscard]] Result<Blended> blended(csg::Op op, std::vector<csg::Solid> operands,
                                       const Form& form, SourceSpan span = {},

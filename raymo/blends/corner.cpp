@@ -316,6 +316,12 @@ double slack_of(const Body& body, Vec3 at) {
     return kPointError * size;
 }
 
+std::string place_text(const Body& body, Vec3 at) {
+    const double grain = slack_of(body, at);
+    const auto shown = [&](double x) { return std::fabs(x) <= grain ? 0.0 : x; };
+    return fmt::format("({:g}, {:g}, {:g})", shown(at.x), shown(at.y), shown(at.z));
+}
+
 double sign_of(const Corner& corner) { return corner.is_convex ? 1.0 : -1.0; }
 
 bool is_of_planes(const Body& body, const Corner& corner) {
@@ -344,11 +350,7 @@ std::string name_of(const Body& body, const Corner& corner) {
         names += body.name_of(body.faces()[corner.sides[i].face]);
     }
     if (told < count) names += fmt::format(" and {} others", count - told);
-    // What rounding left of 0 is none.
-    const double grain = slack_of(body, corner.point);
-    const auto shown = [&](double x) { return std::fabs(x) <= grain ? 0.0 : x; };
-    return fmt::format("the corner at ({:g}, {:g}, {:g}), where {} meet", shown(corner.point.x),
-                       shown(corner.point.y), shown(corner.point.z), names);
+    return fmt::format("the corner at {}, where {} meet", place_text(body, corner.point), names);
 }
 
 Result<std::vector<Corner>> find_corners(const Body& body, std::vector<Segment>& segments,
