@@ -215,6 +215,33 @@ TEST_CASE("a nearly level ray is certain beside a wall that is nearer to the axi
     }
 }
 
+TEST_CASE("a ray along the circle on which a ring is highest is certain next to where it touches") {
+    // There it touches to the fourth order: it runs along the circle, and so turns off the contour slowly.
+    const auto ring =
+        Revolve::prepare(std::vector<Argument>{outline({curves::full_circle({5, 0}, 2)}), 360.0});
+    REQUIRE(ring.has_value());
+    for (double deep = 1e-1; deep > 1e-9; deep *= 0.3) {
+        for (const double rise : {0.0, 1e-3 * deep, -0.1 * deep}) {
+            CAPTURE(deep);
+            CAPTURE(rise);
+            double shift;
+            const SpanList spans = spans_of(*ring, {5.0, 0.0, 2.0 - deep}, {0.0, 1.0, rise}, shift);
+            REQUIRE(spans.size() == 1);
+            CHECK(!spans.degenerate());
+            CHECK(!spans.touched());
+            // The radius there is 5 + t, with t^2 + z^2 = 4.
+            for (const SpanEnd& end : {spans[0].enter, spans[0].exit}) {
+                const double y = end.s + shift;
+                const double low = deep - rise * y;
+                const double expected = std::sqrt(low * (4.0 - low));
+                const double actual = y * y / (std::hypot(5.0, y) + 5.0);
+                CHECK(std::fabs(actual - expected) <=
+                      1e-12 / expected + 4.0 * end.error * std::fabs(y) / 5.0);
+            }
+        }
+    }
+}
+
 TEST_CASE("next to the axis a ray that was moved off the wall is certain") {
     // A cone nearly from the axis on, and rays along it, moved by little.
     const double least = 0x1p-26;

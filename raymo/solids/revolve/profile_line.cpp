@@ -326,6 +326,17 @@ void ProfileLine::slope_at(const Piece& piece, double u, double s, double& slope
     ds = dot(abs(n), e_) / (size * std::fabs(slope));
 }
 
+double ProfileLine::across_section(double s, double way) const {
+    const double x = o_.x + s * d_.x;
+    const double y = o_.y + s * d_.y;
+    const double r = length_of(x, y);
+    const double ds = way / length_;
+    // r'' is at most across^2 / r, and r no less than r - way.
+    const double turn = 0.5 * across_ * across_ * ds * ds / std::max(r - way, 0x1p-200);
+    const double outwards = std::fabs(x * d_.x + y * d_.y) / std::max(r, 0x1p-200);
+    return (outwards + std::fabs(d_.z)) * ds + turn + max_norm(e_);
+}
+
 void ProfileLine::cross_at(std::uint32_t i, double u, int turn, int half) {
     const Piece& piece = region_.pieces()[i];
     const Vec2 p = curves::point_at(piece, u);
@@ -347,7 +358,7 @@ void ProfileLine::cross_at(std::uint32_t i, double u, int turn, int half) {
                          std::fabs(piece.y[k] - 2.0 * piece.y[k + 1] + piece.y[k + 2]),
                          std::fabs(piece.w[k] - 2.0 * piece.w[k + 1] + piece.w[k + 2])});
     }
-    const double du = way / speed;
+    const double du = std::min(way, across_section(s, way)) / speed;
     const double round = std::fabs(t.y) / length_of(t.x, t.y) / std::max(p.x, 0x1p-200);
     if (!(16.0 * bend * du / speed + round * way <= kProfileSteady * std::fabs(slope) / length_)) {
         out_.set_degenerate();

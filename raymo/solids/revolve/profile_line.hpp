@@ -65,6 +65,9 @@ private:
     [[nodiscard]] bool is_within(const Part& part, double share) const;
     /// Which half of the hyperbola the only zero of F in a part is on, +1 or -1; 0: it is not known. F `rises` there or falls.
     [[nodiscard]] int half_of(const Part& part, double u, bool rises) const;
+    /// How far in the half-plane of the contour the ray moves, at most, within `way` of s: far less than that where it runs along a
+    /// circle.
+    [[nodiscard]] double across_section(double s, double way) const;
     /// A crossing at u; `half`: +1 after, -1 before the place nearest to the axis, of flat and level rays.
     void cross_at(std::uint32_t i, double u, int turn, int half);
     void meet_corner(std::uint32_t i);
