@@ -91,10 +91,15 @@ private:
     void fault(const std::string& what) {
         static constexpr std::array<const char*, 3> kOps{"union", "difference", "intersection"};
         const Vec3 at = rounded(pair_.edge);
-        tally_.exception(what + ": " + kOps[static_cast<std::size_t>(pair_.op)] + "(" +
-                         text(*pair_.a.model) + ", " + text(*pair_.b.model) +
-                         ", blend: " + number(radius_) + ", near: [" + number(at.x) + ", " +
-                         number(at.y) + ", " + number(at.z) + "])");
+        tally_.exception(
+            what + ": " + kOps[static_cast<std::size_t>(pair_.op)] + "(" + text(*pair_.a.model) +
+            ", " + text(*pair_.b.model) + ", blend: " + number(radius_) + ", near: [" +
+            number(at.x) + ", " + number(at.y) + ", " + number(at.z) + "])" +
+            (line_ ? " along " + coordinates(line_->origin) + " " + coordinates(line_->direction)
+                   : ""));
+    }
+    static std::string coordinates(Vec3 p) {
+        return number(p.x) + " " + number(p.y) + " " + number(p.z);
     }
 
     [[nodiscard]] Result<blends::Blended> attempt(double radius) const {
@@ -199,12 +204,22 @@ private:
 
     void ray(Blend& blend) {
         ++tally_.rays;
-        const Vec3 target = rounded(any_point());
+        Vec3 target = rounded(any_point());
         judge(real(target), blend.where(target) == query::Where::in, kTight, "point");
         double rounding = kTight;
         const double size = radius_ + pair_.scale;
         Vec3 d = random_.direction();
-        if (random_.chance(0.3)) {
+        const bool is_in_plane = random_.chance(0.2);
+        if (is_in_plane) {
+            // Through a contact curve and in the plane that touches there: along the curve, across it, or at any angle.
+            rounding = kLoose;
+            const RealVec c = pair_.place(*centre_, any_place());
+            const RealVec at = contact(random_.chance(0.5) ? rolled_.p() : rolled_.q(), c);
+            const RealVec n = unit(at - c);
+            const RealVec along = unit(cross(rolled_.p().gradient(c), rolled_.q().gradient(c)));
+            target = rounded(at);
+            d = flat_direction(n, along, random_);
+        } else if (random_.chance(0.3)) {
             // Along the tube, and so grazing it.
             rounding = kLoose;
             const double t = any_place();
@@ -213,6 +228,7 @@ private:
         }
         const Ray line{target - d * (size * random_.uniform(0, 3)),
                        d * (size * random_.uniform(0.5, 2))};
+        line_ = line;
         const RealVec from = real(line.origin);
         const RealVec step = real(line.direction);
         const Real reach = r(2 * kReach * pair_.scale) / norm(step);
@@ -222,8 +238,8 @@ private:
         });
         for (const trace::PartSpan& span : spans) {
             for (const trace::Hit& hit : {span.enter, span.exit}) {
-                known(line, hit);
-                end(line, hit.t, hit.normal);
+                if (!is_in_plane) known(line, hit);
+                end(line, hit, rounding);
             }
         }
     }
@@ -241,8 +257,8 @@ private:
     }
 
     /// An end of a span on the tube is as far from the spine as the radius, and its normal points to it or away.
-    void end(const Ray& line, double t, Vec3 normal) {
-        const RealVec x = real(line.origin) + real(line.direction) * r(t);
+    void end(const Ray& line, const trace::Hit& hit, double rounding) {
+        const RealVec x = real(line.origin) + real(line.direction) * r(hit.t);
         if (!is_near(x)) return;
         const Real size = norm(x) + r(pair_.scale);
         const auto spine = rolled_.on_spine(x);
@@ -254,10 +270,26 @@ private:
         ++tally_.samples;
         // Glancing rays know their ends less well across than along.
         const Real sine = std::fabs(dot(unit(d), unit(real(line.direction))));
-        if (std::fabs(norm(d) - r(radius_)) > 1e-9L * size) {
-            fault("an end is " + number(static_cast<double>(norm(d))) + " from the spine");
-        } else if (norm(cross(unit(d), real(normal))) > 1e-7L && sine > 1e-3L) {
-            fault("a normal does not point to the spine");
+        const Real way = r(hit.error) * norm(real(line.direction));
+        const Real off = std::fabs(norm(d) - r(radius_));
+        if (off > 1e-9L * size + way * sine) {
+            fault("an end at " + number(hit.t) + " +- " + number(hit.error) + " is " +
+                  number(static_cast<double>(off)) + " off the ball");
+        }
+        const Real turn = norm(cross(unit(d), real(hit.normal)));
+        // No further than it turns within the error, and within what rays are moved aside by.
+        const Real reach =
+            way + r(rounding * kUnitRoundoff) * (norm(x) + r(10 * kFar * pair_.scale));
+        Real known = 0;
+        for (const RealVec axis : {RealVec{1, 0, 0}, RealVec{0, 1, 0}, RealVec{0, 0, 1}}) {
+            const RealVec beside = x + axis * reach;
+            const auto other = rolled_.on_spine(beside);
+            if (!other) return;
+            known = std::max(known, 2 * norm(cross(unit(d), unit(beside - other->at))));
+        }
+        if (turn > 1e-7L + known && sine > 1e-3L) {
+            fault("a normal at " + number(hit.t) + " +- " + number(hit.error) + " is off by " +
+                  number(static_cast<double>(turn)));
         }
     }
 
@@ -309,23 +341,37 @@ private:
     Tally& tally_;
     Rolled rolled_;
     std::optional<RealVec> centre_;
+    std::optional<Ray> line_;  ///< the last that was traced
 };
+
+void try_pair(int kind, std::uint64_t rays, Random& random, Tally& tally) {
+    std::optional<Pair> pair;
+    while (!pair) pair = any_pair(kind, random);
+    const double radius = pair->scale * std::pow(10.0, random.uniform(-2.0, 0.5));
+    Trial(*pair, radius, random, tally).run(rays);
+}
 
 void pairs(std::uint64_t rays, Random& random, Tally& tally) {
     const std::uint64_t count = std::max<std::uint64_t>(rays / 1000, 3 * kPairKinds);
-    for (std::uint64_t i = 0; i < count; ++i) {
-        const int kind = static_cast<int>(i % kPairKinds);
-        std::optional<Pair> pair;
-        while (!pair) pair = any_pair(kind, random);
-        const double radius = pair->scale * std::pow(10.0, random.uniform(-2.0, 0.5));
-        Trial(*pair, radius, random, tally).run(rays / count);
-    }
+    for (std::uint64_t i = 0; i < count; ++i)
+        try_pair(static_cast<int>(i % kPairKinds), rays / count, random, tally);
+}
+
+/// Few pairs of one kind, each with many rays.
+void rays_of_kind(int kind, std::uint64_t rays, Random& random, Tally& tally) {
+    while (tally.rays < rays && tally.exceptions == 0) try_pair(kind, rays / 10, random, tally);
 }
 
 }  // namespace
 
 void add_blend_laws(std::vector<Law>& laws) {
     laws.push_back({"blends: 1,000 pairs are what the ball leaves", 1000000, pairs});
+    for (int kind = 0; kind < kPairKinds; ++kind) {
+        laws.push_back({"rays at blends: " + pair_name(kind), 1000000,
+                        [kind](std::uint64_t rays, Random& random, Tally& tally) {
+                            rays_of_kind(kind, rays, random, tally);
+                        }});
+    }
 }
 
 }  // namespace raymo::laws

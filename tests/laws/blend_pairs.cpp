@@ -90,7 +90,7 @@ Affine similarity(Random& random, double& scale) {
     return map;
 }
 
-constexpr std::array<std::array<RealSurface::Kind, 2>, 12> kTurned{{
+constexpr std::array<std::array<RealSurface::Kind, 2>, 13> kTurned{{
     {RealSurface::Kind::plane, RealSurface::Kind::sphere},
     {RealSurface::Kind::plane, RealSurface::Kind::cylinder},
     {RealSurface::Kind::plane, RealSurface::Kind::cone},
@@ -103,7 +103,15 @@ constexpr std::array<std::array<RealSurface::Kind, 2>, 12> kTurned{{
     {RealSurface::Kind::cylinder, RealSurface::Kind::torus},
     {RealSurface::Kind::cone, RealSurface::Kind::cone},
     {RealSurface::Kind::cone, RealSurface::Kind::torus},
+    {RealSurface::Kind::torus, RealSurface::Kind::torus},
 }};
+
+std::array<RealSurface::Kind, 2> kinds_of(int kind) {
+    if (kind < static_cast<int>(kTurned.size())) return kTurned[static_cast<std::size_t>(kind)];
+    return {kind < 15 ? RealSurface::Kind::plane : RealSurface::Kind::cylinder,
+            kind < 14 ? RealSurface::Kind::plane : RealSurface::Kind::cylinder};
+}
+bool is_about_axis(int kind) { return kind < static_cast<int>(kTurned.size()); }
 
 }  // namespace
 
@@ -115,18 +123,25 @@ RealVec Pair::place(RealVec p, double t) const {
     return p - section.u * x + (section.u * std::cos(r(t)) + w * std::sin(r(t))) * x;
 }
 
+std::string pair_name(int kind) {
+    static constexpr std::array<const char*, 5> kNames{"plane", "sphere", "cylinder", "cone",
+                                                       "torus"};
+    const auto [a, b] = kinds_of(kind);
+    return std::string(kNames[static_cast<std::size_t>(a)]) + " and " +
+           kNames[static_cast<std::size_t>(b)] +
+           (is_about_axis(kind) ? ", one axis" : ", one direction");
+}
+
 std::optional<Pair> any_pair(int kind, Random& random) {
     Pair pair;
-    if (kind < 13) {
-        pair.is_circle = true;
-        const auto kinds = kind < 12
-                               ? kTurned[static_cast<std::size_t>(kind)]
-                               : std::array{RealSurface::Kind::torus, RealSurface::Kind::torus};
-        pair.a = turned(kinds[0], random);
-        pair.b = turned(kinds[1], random);
+    const auto [first, second] = kinds_of(kind);
+    pair.is_circle = is_about_axis(kind);
+    if (pair.is_circle) {
+        pair.a = turned(first, random);
+        pair.b = turned(second, random);
     } else {
-        pair.a = straight(kind < 15, 2.0 * kFar, random);
-        pair.b = straight(kind < 14, 2.4 * kFar, random);
+        pair.a = straight(first == RealSurface::Kind::plane, 2.0 * kFar, random);
+        pair.b = straight(second == RealSurface::Kind::plane, 2.4 * kFar, random);
     }
     if (random.chance(0.5)) std::swap(pair.a, pair.b);
     pair.map = similarity(random, pair.scale);

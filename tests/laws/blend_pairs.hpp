@@ -3,6 +3,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 
 #include "tests/laws/law.hpp"
 #include "tests/laws/rolled.hpp"
@@ -33,6 +34,8 @@ struct Pair {
 
 /// The kinds of pairs.
 inline constexpr int kPairKinds = 16;
+/// "sphere and torus, one axis"
+[[nodiscard]] std::string pair_name(int kind);
 /// A pair of a kind that meets in an edge, which is crossed at some angle; under a random similarity. Empty when the sizes and
 /// places that were drawn have no such edge.
 [[nodiscard]] std::optional<Pair> any_pair(int kind, Random& random);

@@ -390,7 +390,7 @@ void corners(std::uint64_t rays, Random& random, Tally& tally) {
 }  // namespace
 
 void add_corner_laws(std::vector<Law>& laws) {
-    laws.push_back({"blends: corners of many planes, by their definition", 100000, corners});
+    laws.push_back({"blends: corners of many planes, by their definition", 1000000, corners});
 }
 
 }  // namespace raymo::laws

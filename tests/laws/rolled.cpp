@@ -1,7 +1,9 @@
 #include "tests/laws/rolled.hpp"
 
+#include <array>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 namespace raymo::laws {
 namespace {
@@ -44,6 +46,14 @@ RealVec real(Vec3 a) {
 }
 Vec3 rounded(RealVec a) {
     return {static_cast<double>(a.x), static_cast<double>(a.y), static_cast<double>(a.z)};
+}
+
+Vec3 flat_direction(RealVec n, RealVec along, Random& random) {
+    const std::array<double, 3> turns{0.0, 0.5, random.uniform(0.0, 1.0)};
+    const Real turn = static_cast<Real>(turns[static_cast<std::size_t>(random.below(3))]) *
+                      std::numbers::pi_v<Real>;
+    const RealVec way = along * std::cos(turn) + cross(n, along) * std::sin(turn);
+    return rounded(way) + random.in_cube(std::pow(10.0, random.uniform(-17, -1)));
 }
 
 Real RealSurface::distance(RealVec p) const {
@@ -256,11 +266,46 @@ RealVec Rolled::approached(RealVec x, RealVec y) const {
     return y;
 }
 
-std::optional<Rolled::Nearest> Rolled::on_spine(RealVec x) const {
+RealVec Rolled::nearest_along(RealVec x, RealVec y) const {
+    constexpr int kSteps = 32;
+    RealVec best = y;
+    for (const Real sense : {Real{1}, Real{-1}}) {
+        RealVec at = y;
+        RealVec before = unit(cross(p_.gradient(y), q_.gradient(y))) * sense;
+        for (int i = 0; i < kSteps; ++i) {
+            RealVec way = unit(cross(p_.gradient(at), q_.gradient(at)));
+            if (dot(way, before) < 0) way = way * Real{-1};
+            const auto next = nearby(at + way * (r_ / kSteps), r_);
+            if (!next) break;
+            before = way;
+            at = *next;
+            if (norm(at - x) < norm(best - x)) best = at;
+        }
+    }
+    return best;
+}
+
+std::optional<RealVec> Rolled::foot_from(RealVec x, RealVec y) const {
+    const auto is_nearer = [&](const std::optional<RealVec>& foot) {
+        return foot && norm(*foot - x) <= norm(y - x) + 1e-6L * r_;
+    };
+    if (const auto foot = polished_foot(x, y); is_nearer(foot)) return foot;
+    // From a start that is next to a centre of curvature the steps may lead to another foot, farther away.
+    const auto foot = polished_foot(x, approached(x, y));
+    return is_nearer(foot) ? foot : std::nullopt;
+}
+
+std::optional<Rolled::Nearest> Rolled::on_spine(RealVec x, Care care) const {
     std::optional<Nearest> best;
     const auto beside = spines_.size() == 1 ? nearby(x, r_) : std::nullopt;
     Real least = std::numeric_limits<Real>::infinity();
     for (std::size_t s = 0; s < spines_.size(); ++s) {
+        const auto look = [&](RealVec y) {
+            const auto foot = foot_from(x, y);
+            if (!foot || !(norm(*foot - x) < least)) return;
+            least = norm(*foot - x);
+            best = Nearest{*foot, s};
+        };
         RealVec y;
         Real near = std::numeric_limits<Real>::infinity();
         for (const RealVec& point : spines_[s].points) {
@@ -273,16 +318,10 @@ std::optional<Rolled::Nearest> Rolled::on_spine(RealVec x) const {
             near = norm(*beside - x);
             y = *beside;
         }
-        auto foot = polished_foot(x, y);
-        // From a start that is next to a centre of curvature the steps may lead to another foot, farther away.
-        if (!foot || norm(*foot - x) > near + 1e-6L * r_) {
-            foot = polished_foot(x, approached(x, y));
-            if (!foot || norm(*foot - x) > near + 1e-6L * r_) continue;
-        }
-        y = *foot;
-        if (norm(y - x) < least) {
-            least = norm(y - x);
-            best = Nearest{y, s};
+        look(y);
+        if (care == Care::quick) continue;
+        for (const RealVec& point : spines_[s].points) {
+            if (norm(point - x) < near + 0.25L * r_) look(nearest_along(x, point));
         }
     }
     return best;
@@ -297,7 +336,7 @@ bool Rolled::is_between_contacts(RealVec x, RealVec centre) const {
     return dot(d, a) - cosine * dot(d, b) >= 0 && dot(d, b) - cosine * dot(d, a) >= 0;
 }
 
-Side Rolled::closing(RealVec x, Real margin) const {
+Side Rolled::closing(RealVec x, Real margin, Care care) const {
     const Real p = p_.distance(x);
     const Real q = q_.distance(x);
     if (p < -margin || q < -margin) return Side::in;
@@ -314,7 +353,7 @@ Side Rolled::closing(RealVec x, Real margin) const {
     };
     try_foot(p_, q_, p);
     try_foot(q_, p_, q);
-    if (const auto spine = on_spine(x)) {
+    if (const auto spine = on_spine(x, care)) {
         const Real d = norm(spine->at - x);
         if (d < least) {
             least = d;

@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "raymo/math/affine.hpp"
+#include "tests/laws/law.hpp"
 #include "tests/laws/model.hpp"
 
 namespace raymo::laws {
@@ -34,6 +35,10 @@ struct RealVec {
 [[nodiscard]] RealVec unit(RealVec a);
 [[nodiscard]] RealVec real(Vec3 a);
 [[nodiscard]] Vec3 rounded(RealVec a);
+
+/// A direction in the plane across n, in which `along` is: along that, across it or at any angle, exactly or nearly. Of unit length
+/// or nearly.
+[[nodiscard]] Vec3 flat_direction(RealVec n, RealVec along, Random& random);
 
 /// A solid with one surface. The distance from it is exact everywhere, negative within.
 struct RealSurface {
@@ -82,8 +87,11 @@ public:
         r_ = r;
         spines_ = std::move(spines);
     }
+    /// From where the foot of a point on a spine is looked for: from the nearest of its points, or from all that are about as
+    /// near, since where a spine bends as sharply as the ball, it has several feet.
+    enum class Care : std::uint8_t { quick, thorough };
     /// Where x is in the union with the blended edges closed, unless within `margin` of the boundary.
-    [[nodiscard]] Side closing(RealVec x, Real margin) const;
+    [[nodiscard]] Side closing(RealVec x, Real margin, Care care = Care::quick) const;
     /// Whether a point of a spine belongs to an edge: it is followed as r shrinks to 0. A ball that touches both solids where
     /// they are close to each other, but do not meet, does not.
     [[nodiscard]] bool is_of_edge(RealVec centre) const;
@@ -94,13 +102,17 @@ public:
         RealVec at;
         std::size_t spine;
     };
-    [[nodiscard]] std::optional<Nearest> on_spine(RealVec x) const;
+    [[nodiscard]] std::optional<Nearest> on_spine(RealVec x, Care care = Care::quick) const;
 
 private:
     /// The foot of x on a spine that Newton's method finds from y.
     [[nodiscard]] std::optional<RealVec> polished_foot(RealVec x, RealVec y) const;
     /// Where steps along the spine from y, which is on it, come nearest to x.
     [[nodiscard]] RealVec approached(RealVec x, RealVec y) const;
+    /// The nearest to x of places along the spine up to about r to both sides of y, which is on it.
+    [[nodiscard]] RealVec nearest_along(RealVec x, RealVec y) const;
+    /// The foot of x on a spine that is found from y, which is on it; none that is farther.
+    [[nodiscard]] std::optional<RealVec> foot_from(RealVec x, RealVec y) const;
     [[nodiscard]] bool is_between_contacts(RealVec x, RealVec centre) const;
     [[nodiscard]] std::optional<RealVec> solve(const RealSection& section, Real r,
                                                RealVec start) const;
