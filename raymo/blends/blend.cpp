@@ -19,6 +19,9 @@ namespace {
 /// Of the body's size: below it what a wedge reaches beyond faces comes near to roundings.
 constexpr double kSmallest = 0x1p-24;
 
+/// Of that size: how well it is told where faces touch.
+constexpr double kPlace = 0x1p-24;
+
 // What things take, in units of some 100 ns.
 constexpr double kSearchWork = 5e6;  ///< to look for a radius that works, at most,
 constexpr double kRefineWork = 2e6;  ///< and then for the largest
@@ -103,7 +106,8 @@ bool is_inside(const csg::Solid& solid, Vec3 p) {
     return body && body->where(p) != solids::Where::out;
 }
 
-Failure touch(const Body& body, std::size_t face_a, std::size_t face_b, const std::string& where) {
+Failure touching_error(const Body& body, std::size_t face_a, std::size_t face_b,
+                       const std::string& where) {
     return fail(ErrorCode::out_of_range,
                 fmt::format("{} and {} touch each other{}", body.name_of(body.faces()[face_a]),
                             body.name_of(body.faces()[face_b]), where),
@@ -114,14 +118,15 @@ Failure touch(const Body& body, std::size_t face_a, std::size_t face_b, const st
 Result<void> check_touching(const Body& body, bool within_operands, std::optional<Edges> only,
                             const std::vector<Segment>& edges, const Form& form,
                             const Spend& spend) {
-    // An edge that is chosen is there.
-    if (form.near) return {};
+    // Who chooses an edge asks for no other.
+    if (form.near && !edges.empty()) return {};
     const auto chosen = [&](Vec3 p) { return !form.where || is_inside(form.where, p); };
     auto touching = find_touching(body, within_operands, only, edges, chosen, spend);
     if (!touching) return Failure(std::move(touching).error());
     if (!*touching) return {};
     const auto& [face_a, face_b, at] = **touching;
-    return touch(body, face_a, face_b, " at " + place_text(body, at));
+    return touching_error(body, face_a, face_b,
+                          " at " + place_text(at, kPlace * max_norm(body.box().size())));
 }
 
 Failure does_not_fit(const Body& body, const std::vector<Segment>& segments, std::size_t which,
@@ -134,7 +139,8 @@ Failure does_not_fit(const Body& body, const std::vector<Segment>& segments, std
                                 body.name_of(body.faces()[segment.face_b])),
                     "move or resize one of them, or choose other edges with `near` or `where`");
     }
-    if (fitting.fit == Fit::touching) return touch(body, segment.face_a, segment.face_b, "");
+    if (fitting.fit == Fit::touching)
+        return touching_error(body, segment.face_a, segment.face_b, "");
     std::string message = fmt::format("a ball of radius {:g} does not fit between {} and {}",
                                       form.radius, body.name_of(body.faces()[segment.face_a]),
                                       body.name_of(body.faces()[segment.face_b]));
@@ -332,8 +338,10 @@ Result<Blended> blend(const Body& body, csg::Solid sharp, bool within_operands,
     auto found = find_segments(body, within_operands, std::min(form.radius, size), spend);
     if (!found) return Failure(std::move(found).error());
     std::vector<Segment>& segments = *found;
-    if (auto apart = check_touching(body, within_operands, only, segments, form, spend); !apart)
-        return Failure(std::move(apart).error());
+    if (auto checked = check_touching(body, within_operands, only, segments, form, spend);
+        !checked) {
+        return Failure(std::move(checked).error());
+    }
     const auto go_on = [&](double work) { return !spend || spend(work); };
     const Failure stopped = fail(ErrorCode::cancelled, "stopped");
     if (only) {

@@ -316,8 +316,7 @@ double slack_of(const Body& body, Vec3 at) {
     return kPointError * size;
 }
 
-std::string place_text(const Body& body, Vec3 at) {
-    const double grain = slack_of(body, at);
+std::string place_text(Vec3 at, double grain) {
     const auto shown = [&](double x) { return std::fabs(x) <= grain ? 0.0 : x; };
     return fmt::format("({:g}, {:g}, {:g})", shown(at.x), shown(at.y), shown(at.z));
 }
@@ -350,7 +349,8 @@ std::string name_of(const Body& body, const Corner& corner) {
         names += body.name_of(body.faces()[corner.sides[i].face]);
     }
     if (told < count) names += fmt::format(" and {} others", count - told);
-    return fmt::format("the corner at {}, where {} meet", place_text(body, corner.point), names);
+    return fmt::format("the corner at {}, where {} meet",
+                       place_text(corner.point, slack_of(body, corner.point)), names);
 }
 
 Result<std::vector<Corner>> find_corners(const Body& body, std::vector<Segment>& segments,

@@ -60,8 +60,8 @@ struct Corner {
 [[nodiscard]] double sign_of(const Corner& corner);
 /// How far surfaces that go through one point are off it by rounding [mm].
 [[nodiscard]] double slack_of(const Body& body, Vec3 at);
-/// "(1, 0, 2.5)": a point for messages, where what rounding left of 0 is none.
-[[nodiscard]] std::string place_text(const Body& body, Vec3 at);
+/// "(1, 0, 2.5)": a point for messages, where what rounding left of 0, up to `grain`, is none.
+[[nodiscard]] std::string place_text(Vec3 at, double grain);
 /// Whether a corner is a ring of planes, and where the balls in it are then, from its point. Empty where the planes are no corner.
 [[nodiscard]] bool is_of_planes(const Body& body, const Corner& corner);
 [[nodiscard]] std::optional<InnerCorner> inner_of(const Body& body, const Corner& corner,

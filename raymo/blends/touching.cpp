@@ -4,32 +4,45 @@
 // stands still: with n_a = +-n_b there, and t two tangents, along which the normals differ at the rates of the relative curvature,
 //     t_i.(n_b -+ n_a) + sum_k H_ik x_k = 0,  H_ik = t_i.(dn_b / dt_k -+ dn_a / dt_k).
 // Where the surfaces touch along a curve H has a direction without curvature, in which nothing is to be done.
+// Whether a point that is found is a crevice is asked above, below and all about it.
 #include "raymo/blends/touching.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 #include "raymo/blends/body.hpp"
-#include "raymo/blends/least_squares.hpp"
+#include "raymo/blends/corner.hpp"
 #include "raymo/blends/segment.hpp"
 
 namespace raymo::blends {
 namespace {
 
-/// Of the body's size: gaps that are none,
+/// Of the smaller leaf's size: a gap that is none, beside what rounding makes of the place.
 constexpr double kMet = 0x1p-40;
-/// how far from a face its leaf may be told to end,
-constexpr double kMargin = 0x1p-34;
-/// how far beside the face it is asked what is solid,
-constexpr double kBeside = 0x1p-16;
-/// and boxes that are not halved any more.
+/// Of that size: boxes that are not halved any more.
 constexpr double kSmallestBox = 0x1p-5;
-/// Of what a radius of the body's size is curved: what is curved less is flush.
+/// In smallest boxes: how far Newton's method may go from its start.
+constexpr double kFarthest = 8.0;
+/// Of that size: the differences by which curvatures are told, and the last step of Newton's method. A gap is off by its square.
+constexpr double kDifference = 0x1p-17;
+constexpr double kLastStep = 0x1p-26;
+/// Relative curvature times that size: what is curved less is flush.
 constexpr double kFlush = 0x1p-20;
+/// Of that size: how far above and below a contact it is asked what is solid, and how far about it.
+constexpr double kAcross = 0x1p-16;
+constexpr double kAbout = 0x1p-7;
+/// In slacks: how far off a face a point of its surface may be told to be.
+constexpr double kOnFace = 64.0;
+/// In slacks: how far apart faces are between which it can be asked what is solid.
+constexpr double kParted = 1024.0;
+constexpr int kDirections = 8;
 constexpr int kMostSteps = 24;
-/// From where Newton's method is tried, at most.
-constexpr int kMostStarts = 64;
+/// From where Newton's method is tried, at most, for two faces.
+constexpr int kMostStarts = 96;
+/// What is spent on it, at most, in units of some 100 ns.
+constexpr double kMostWork = 2e6;
 
 using FacePair = std::pair<std::size_t, std::size_t>;
 FacePair pair_of(std::size_t a, std::size_t b) { return {std::min(a, b), std::max(a, b)}; }
@@ -38,20 +51,20 @@ class Search {
 public:
     Search(const Body& body, std::optional<Edges> only, const std::function<bool(Vec3)>& chosen,
            const Spend& spend)
-        : body_(body),
-          only_(only),
-          chosen_(chosen),
-          spend_(spend),
-          size_(max_norm(body.box().size())) {}
+        : body_(body), only_(only), chosen_(chosen), spend_(spend) {}
 
     /// Where two faces touch.
     std::optional<Vec3> run(const Face& a, const Face& b) {
-        const Aabb all =
-            overlap(overlap(near_of(a), near_of(b)), grown(body_.box(), kMargin * size_));
+        const Leaf& first = body_.leaves()[a.leaf];
+        const Leaf& second = body_.leaves()[b.leaf];
+        const Aabb& within = body_.box();
+        size_ = std::min(max_norm(overlap(first.near, within).size()),
+                         max_norm(overlap(second.near, within).size()));
+        const Aabb all = overlap(overlap(first.near, second.near), grown(within, kAcross * size_));
         if (all.empty()) return std::nullopt;
-        starts_ = 0;
+        int starts = 0;
         open_.assign(1, all);
-        while (!open_.empty() && starts_ < kMostStarts &&
+        while (!open_.empty() && starts < kMostStarts &&
                go_on(a.surface.work() + b.surface.work())) {
             const Aabb box = open_.back();
             open_.pop_back();
@@ -61,23 +74,21 @@ public:
                 halve(box, sides);
                 continue;
             }
-            ++starts_;
+            ++starts;
             const auto p = settle(a.surface, b.surface, box.centre());
-            if (p && counts(a, b, *p)) return p;
+            if (p && is_edgeless(a, b, *p) && chosen_(*p)) return p;
         }
         return std::nullopt;
     }
 
-    [[nodiscard]] bool is_stopped() const { return is_stopped_; }
+    [[nodiscard]] bool is_cancelled() const { return is_cancelled_; }
+    [[nodiscard]] bool is_cut_short() const { return work_ > kMostWork; }
 
 private:
     bool go_on(double work) {
-        is_stopped_ = is_stopped_ || (spend_ && !spend_(work));
-        return !is_stopped_;
-    }
-
-    [[nodiscard]] const Aabb& near_of(const Face& face) const {
-        return body_.leaves()[face.leaf].near;
+        work_ += work;
+        is_cancelled_ = is_cancelled_ || (spend_ && !spend_(work));
+        return !is_cancelled_ && !is_cut_short();
     }
 
     void halve(const Aabb& box, Vec3 sides) {
@@ -93,72 +104,103 @@ private:
         open_.push_back(other);
     }
 
+    /// What may be off about a distance of 0.
+    [[nodiscard]] double slack(Vec3 p) const { return kMet * size_ + slack_of(body_, p); }
+
     [[nodiscard]] bool may_touch(const Surface& a, const Surface& b, const Aabb& box) const {
         const Vec3 p = box.centre();
-        const double way = 0.5 * norm(box.size()) + kMet * size_;
-        if (!(std::fabs(a.distance(p)) <= way) || !(std::fabs(b.distance(p)) <= way)) return false;
+        const double way = 0.5 * norm(box.size()) + slack(p);
+        const double from_a = a.distance(p);
+        const double from_b = b.distance(p);
+        if (!(std::fabs(from_a) <= way) || !(std::fabs(from_b) <= way)) return false;
         const double turn = way / a.least_round(p) + way / b.least_round(p);
-        return !(turn < 1.0) || norm(cross(a.normal(p), b.normal(p))) <= turn;
+        if (!(turn < 1.0)) return true;
+        const Vec3 n = a.normal(p);
+        const double sine = norm(cross(n, b.normal(p)));
+        if (sine > turn) return false;
+        // On a the distance from b changes no faster than the normals differ, up to twice as far away.
+        return std::fabs(b.distance(p - n * from_a)) <= 2.0 * way * (sine + 4.0 * turn) + slack(p);
     }
 
     /// Goes to where the distance from b stands still on a, and is 0.
     std::optional<Vec3> settle(const Surface& a, const Surface& b, Vec3 p) {
-        const double far = 8.0 * kSmallestBox * size_;
         const Vec3 start = p;
-        // As small as differences of normals allow.
-        const double h = 0x1p-17 * size_;
+        const double h = kDifference * size_;
         for (int i = 0; i < kMostSteps; ++i) {
             if (!go_on(4.0 * (a.work() + b.work()))) return std::nullopt;
             const Vec3 n = a.normal(p);
             p = p - n * a.distance(p);
             const double way = dot(n, b.normal(p)) < 0.0 ? -1.0 : 1.0;
-            const Vec3 u = unit(cross(n, std::fabs(n.x) < 0.5 ? Vec3{1, 0, 0} : Vec3{0, 1, 0}));
-            const Vec3 v = cross(n, u);
+            Vec3 u, v;
+            make_frame(n, u, v);
             const auto apart = [&](Vec3 q) { return b.normal(q) - a.normal(q) * way; };
             const Vec3 here = apart(p);
             const Vec3 along_u = (apart(p + u * h) - apart(p - u * h)) * (0.5 * size_ / h);
             const Vec3 along_v = (apart(p + v * h) - apart(p - v * h)) * (0.5 * size_ / h);
-            const double curvature =
-                std::max({std::fabs(dot(u, along_u)), std::fabs(dot(u, along_v)),
-                          std::fabs(dot(v, along_v))});
-            if (!(curvature > kFlush)) return std::nullopt;
-            LeastSquares<2> conditions;
-            for (const Vec3 t : {u, v})
-                conditions.add({dot(t, along_u), dot(t, along_v), -dot(t, here)});
-            const auto [x, y] = conditions.solved();
-            const Vec3 step = (u * x + v * y) * size_;
+            // The principal directions of the relative curvature, and what is to be done along each.
+            const double uu = dot(u, along_u);
+            const double vv = dot(v, along_v);
+            const double uv = 0.5 * (dot(u, along_v) + dot(v, along_u));
+            const double turn = 0.5 * std::atan2(2.0 * uv, uu - vv);
+            const double mean = 0.5 * (uu + vv);
+            const double deviation = std::hypot(0.5 * (uu - vv), uv);
+            const Vec3 first = u * std::cos(turn) + v * std::sin(turn);
+            bool is_flush = true;
+            Vec3 step;
+            for (const auto& [axis, bend] : {std::pair(first, mean + deviation),
+                                             std::pair(cross(n, first), mean - deviation)}) {
+                if (!(std::fabs(bend) > kFlush)) continue;
+                is_flush = false;
+                // Beside a contact that is a curve the valley along it bends a little, too.
+                step += axis *
+                        (std::clamp(-dot(axis, here) / bend, -kSmallestBox, kSmallestBox) * size_);
+            }
+            if (is_flush) return std::nullopt;
             p = p + step;
-            if (!is_finite(p) || norm(p - start) > far) return std::nullopt;
-            // The gap is wrong by the square of what is left.
-            if (norm(step) <= 0x1p-26 * size_) break;
+            if (!is_finite(p) || norm(p - start) > kFarthest * kSmallestBox * size_)
+                return std::nullopt;
+            if (norm(step) <= kLastStep * size_) break;
         }
         p = p - a.normal(p) * a.distance(p);
-        const bool is_met = std::fabs(b.distance(p)) <= kMet * size_ &&
-                            norm(cross(a.normal(p), b.normal(p))) <= kFlush;
+        const bool is_met = std::fabs(b.distance(p)) <= slack(p) &&
+                            norm(cross(a.normal(p), b.normal(p))) <= kSmooth;
         return is_met ? std::optional(p) : std::nullopt;
     }
 
-    /// Whether both faces are there, with a crevice between them or nothing.
-    bool counts(const Face& a, const Face& b, Vec3 p) {
-        const double margin = kMargin * size_;
-        if (!body_.is_on(a, p, margin) || !body_.is_on(b, p, margin)) return false;
-        go_on(2.0 * body_.where_work());
-        const Vec3 aside = a.surface.normal(p) * (kBeside * size_);
-        const solids::Where one = body_.where(p + aside);
-        if (one == solids::Where::on || body_.where(p - aside) != one) return false;
-        // What lies behind both, as in a third solid, does not show.
-        if (body_.where(p) != solids::Where::on) return false;
+    /// Whether both faces are all about p, with a crevice between them or next to nothing.
+    bool is_edgeless(const Face& a, const Face& b, Vec3 p) {
+        if (!go_on((2.0 + kDirections) * body_.where_work())) return false;
+        const Vec3 n = a.surface.normal(p);
+        const solids::Where one = body_.where(p + n * (kAcross * size_));
+        if (one == solids::Where::on || body_.where(p - n * (kAcross * size_)) != one) return false;
         if (only_ && (*only_ == Edges::concave) != (one == solids::Where::in)) return false;
-        return chosen_(p);
+        Vec3 u, v;
+        make_frame(n, u, v);
+        bool is_open = false;
+        for (int i = 0; i < kDirections; ++i) {
+            const double turn = 2.0 * std::numbers::pi * (i + 0.5) / kDirections;
+            const Vec3 q = p + (u * std::cos(turn) + v * std::sin(turn)) * (kAbout * size_);
+            const Vec3 on_a = q - a.surface.normal(q) * a.surface.distance(q);
+            const Vec3 on_b = q - b.surface.normal(q) * b.surface.distance(q);
+            // A face's surface goes on beyond it, as another's may do that belongs to the same solid.
+            const double margin = kOnFace * slack(q);
+            if (!body_.is_on(a, on_a, margin) || !body_.is_on(b, on_b, margin)) return false;
+            // Along a contact that is a curve the faces do not part.
+            if (norm(on_a - on_b) <= kParted * slack(q)) continue;
+            const solids::Where between = body_.where((on_a + on_b) * 0.5);
+            if (between == one || between == solids::Where::on) return false;
+            is_open = true;
+        }
+        return is_open;
     }
 
     const Body& body_;
     std::optional<Edges> only_;
     const std::function<bool(Vec3)>& chosen_;
     const Spend& spend_;
-    double size_;
-    bool is_stopped_ = false;
-    int starts_ = 0;
+    double size_ = 1.0;  ///< of the smaller leaf of those looked at
+    double work_ = 0.0;
+    bool is_cancelled_ = false;
     std::vector<Aabb> open_;
 };
 
@@ -182,7 +224,7 @@ Result<std::optional<Touching>> find_touching(const Body& body, bool within_oper
             const Leaf& second = leaves[k];
             if (!within_operands && first.operand == second.operand) continue;
             // What was blended is next to its blend as it should be.
-            if (first.is_blend || second.is_blend) continue;
+            if (within_operands && (first.is_blend || second.is_blend)) continue;
             if (overlap(first.near, second.near).empty()) continue;
             for (std::size_t i = first.first_face; i < first.first_face + first.face_count; ++i) {
                 for (std::size_t j = second.first_face; j < second.first_face + second.face_count;
@@ -194,7 +236,8 @@ Result<std::optional<Touching>> find_touching(const Body& body, bool within_oper
                         continue;
                     if (std::binary_search(joined.begin(), joined.end(), pair_of(i, j))) continue;
                     if (const auto p = search.run(a, b)) return std::optional(Touching{i, j, *p});
-                    if (search.is_stopped()) return fail(ErrorCode::cancelled, "stopped");
+                    if (search.is_cancelled()) return fail(ErrorCode::cancelled, "stopped");
+                    if (search.is_cut_short()) return std::optional<Touching>();
                 }
             }
         }

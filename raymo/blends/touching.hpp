@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -18,10 +19,10 @@ struct Touching {
 };
 
 /// Two faces of different operands (of different leaves, if `within_operands`) that share a point and a tangent plane there, have no
-/// edge in `edges`, and leave beside that point a crevice between two parts of the solid (`only`: concave), or nothing of a wall
-/// (convex). Faces that go on in each other smoothly do not count, nor do planes or what is flush, nor points that are not
-/// `chosen`. Error: cancelled, by `spend`.
-/// Cost: some 2 us for two faces whose boxes meet, a millisecond where they touch.
+/// edge in `edges`, and all about that point have between them a crevice of the solid (`only`: concave), or a wall that ends in
+/// nothing (convex). Faces that go on in each other smoothly do not count, nor do planes or what is flush, nor points that are
+/// not `chosen`, nor those on the rim of a face. Error: cancelled, by `spend`.
+/// Cost: some 2 us for two faces whose boxes meet, up to a millisecond where they touch; after 0.2 s no more is looked for.
 [[nodiscard]] Result<std::optional<Touching>> find_touching(const Body& body, bool within_operands,
                                                             std::optional<Edges> only,
                                                             const std::vector<Segment>& edges,

@@ -1,6 +1,7 @@
 // Solids that touch without crossing: where they touch is known by how they are placed.
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <random>
 #include <string>
 
@@ -131,6 +132,48 @@ TEST_CASE("touching: what goes on smoothly, lies flush or does not show") {
     CHECK(none(csg::Op::unite, {sphere(1.0), move(sphere(1.0), {2.0, 0.0, 0.0}), sphere(4.0)}));
 }
 
+TEST_CASE("touching: a cutter that is flush with what it touches takes all of that away") {
+    const auto half = [](csg::Solid s, Vec3 size, Vec3 at) {
+        return answer(csg::Op::difference, {std::move(s), move(block(size.x, size.y, size.z), at)},
+                      ball(0.4));
+    };
+    CHECK(half(sphere(5.0), {10, 10, 5}, {-5, -5, -5}) == "blended");
+    CHECK(half(cylinder(5.0, 20.0), {2, 10, 10}, {3, -5, 10}) == "blended");
+    CHECK(half(cylinder(5.0, 20.0), {5, 10, 20}, {0, -5, 0}) == "blended");
+    CHECK(half(torus(10.0, 3.0), {26, 26, 3}, {-13, -13, -3}) == "blended");
+    // And a rib that reaches to the outside of the pipe, which is solid there.
+    const csg::Solid pipe = csg::boolean(
+        csg::Op::difference, {cylinder(10.0, 20.0), move(cylinder(8.0, 30.0), {0, 0, -5})});
+    CHECK(answer(csg::Op::unite, {pipe, move(block(16, 2, 10), {-8, -1, 0})}, ball(0.3)) ==
+          "blended");
+}
+
+TEST_CASE("touching: parts that are small beside the body, and far from the origin") {
+    Placing placing(5);
+    for (int i = 0; i < 100; ++i) {
+        CAPTURE(i);
+        const Affine frame = placing.similarity();
+        const double size = norm(frame.linear.row[0]);
+        const csg::Solid plate = move(block(300 * size, 300 * size, size), {0, 0, -100 * size});
+        const csg::Solid a = mapped(placing.below(i % 4), frame);
+        const csg::Solid b = mapped(placing.below(1), frame * rotation({1.0, 0.0, 0.0}, 180.0));
+        const std::string told = answer(csg::Op::unite, {plate, a, b}, ball(0.01 * size));
+        CAPTURE(told);
+        CHECK(tells(told));
+    }
+    CHECK(tells(answer(csg::Op::unite,
+                       {move(sphere(1.1), {1e5 + 0.1, 0, 0}), move(sphere(2.3), {1e5 + 3.5, 0, 0})},
+                       ball(0.2))));
+    CHECK(tells(
+        answer(csg::Op::unite, {sphere(1e5), move(sphere(1.0), {100001.0, 0, 0})}, ball(0.1))));
+}
+
+TEST_CASE("touching: with the blend of another operand") {
+    const csg::Solid drum = blended(cylinder(10.0, 10.0), Edges::convex, ball(3.0), 2);
+    const double at = 7.0 + 7.0 / std::numbers::sqrt2;
+    CHECK(tells(answer(csg::Op::unite, {drum, move(sphere(4.0), {at, 0.0, at})}, ball(0.3))));
+}
+
 TEST_CASE("touching: of what is chosen") {
     const std::vector<csg::Solid> balls{sphere(1.0), move(sphere(1.0), {2.0, 0.0, 0.0})};
     Form form = ball(0.1);
@@ -138,6 +181,11 @@ TEST_CASE("touching: of what is chosen") {
     CHECK(tells(answer(csg::Op::unite, balls, form)));
     form.where = move(sphere(0.5), {2.0, 0.0, 0.0});
     CHECK(answer(csg::Op::unite, balls, form) == "no edge");
+
+    // Where there is no edge, the nearest can not be meant.
+    form = ball(0.1);
+    form.near = Vec3{1.0, 0.0, 0.0};
+    CHECK(tells(answer(csg::Op::unite, balls, form)));
 
     const csg::Solid both = csg::boolean(csg::Op::unite, balls);
     CHECK(!blended_edges(both, Edges::concave, ball(0.1)).has_value());
