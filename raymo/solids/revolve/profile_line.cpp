@@ -334,7 +334,7 @@ double ProfileLine::across_section(double s, double way) const {
     // r'' is at most across^2 / r, and r no less than r - way.
     const double turn = 0.5 * across_ * across_ * ds * ds / std::max(r - way, 0x1p-200);
     const double outwards = std::fabs(x * d_.x + y * d_.y) / std::max(r, 0x1p-200);
-    return (outwards + std::fabs(d_.z)) * ds + turn + max_norm(e_);
+    return (outwards + std::fabs(d_.z)) * ds + turn + norm(e_);
 }
 
 void ProfileLine::cross_at(std::uint32_t i, double u, int turn, int half) {
