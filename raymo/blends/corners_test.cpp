@@ -1,6 +1,9 @@
 // Corners of more than three faces: one ball and several, hollows, planes that miss a point, errors.
+#include <algorithm>
 #include <random>
 
+#include "raymo/blends/body.hpp"
+#include "raymo/blends/segment.hpp"
 #include "raymo/blends/test_polyhedra.hpp"
 
 namespace raymo::blends {
@@ -270,6 +273,35 @@ TEST_CASE("corners: what can not be rolled is refused with its place") {
     REQUIRE(!none.has_value());
     CHECK(none.error().message.find("no ball touches all faces of the corner at (0, 0, ") !=
           std::string::npos);
+}
+
+TEST_CASE("edges between planes that meet at a small angle are found, turned in any way") {
+    std::mt19937_64 random(3);
+    const auto number = [&](double a, double b) {
+        return std::uniform_real_distribution<double>(a, b)(random);
+    };
+    for (int i = 0; i < 400; ++i) {
+        const double angle = std::pow(10.0, number(-4.5, -1.0));
+        const Vec3 axis = unit(Vec3{number(-1, 1), number(-1, 1), number(-1, 1)});
+        const Affine map =
+            translation(axis * number(0.0, 20.0)) * rotation(axis, number(0.0, 360.0));
+        const csg::Solid roof = csg::boolean(
+            csg::Op::intersection,
+            {centred_block(4, 6, 4), halfspace({std::sin(angle), 0.0, std::cos(angle)}, 1.0),
+             halfspace({-std::sin(angle), 0.0, std::cos(angle)}, 1.0)});
+        CAPTURE(angle);
+        auto body = Body::make(csg::Op::unite, {mapped(roof, map)});
+        REQUIRE(body.has_value());
+        const auto edges = find_segments(*body, true, 0.5);
+        REQUIRE(edges.has_value());
+        // Those of a block, whose top has become two faces.
+        CHECK(edges->size() == 15);
+        CHECK(std::any_of(edges->begin(), edges->end(), [&](const Segment& edge) {
+            const auto leaf = [&](std::size_t face) { return body->faces()[face].leaf; };
+            return leaf(edge.face_a) == 1 && leaf(edge.face_b) == 2 &&
+                   std::fabs(edge.hi - edge.lo - 6.0) < 1e-6;
+        }));
+    }
 }
 
 }  // namespace

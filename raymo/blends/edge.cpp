@@ -70,8 +70,9 @@ std::optional<Vec3> common_direction(const Surface& a, const Surface& b) {
     const bool plane_a = a.kind == SurfaceKind::plane;
     const bool plane_b = b.kind == SurfaceKind::plane;
     if (plane_a && plane_b) {
-        const Vec3 d = cross(a.axis, b.axis);
-        return norm(d) > kShared ? std::optional(unit(d)) : std::nullopt;
+        if (is_parallel(a.axis, b.axis)) return std::nullopt;
+        // a x b by the sum and the difference, which stand on each other: it stands on both normals at small angles, too.
+        return unit(cross(unit(a.axis + b.axis), unit(b.axis - a.axis)));
     }
     if (plane_b) return common_direction(b, a);
     if (!has_direction(b)) return std::nullopt;

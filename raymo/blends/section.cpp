@@ -44,8 +44,13 @@ std::optional<Vec2> meet(const SectionCurve& a, double from_a, const SectionCurv
         if (det == 0.0) return std::nullopt;
         const double ka = a.offset + a.side * from_a;
         const double kb = b.offset + b.side * from_b;
-        const Vec2 p{(ka * b.normal.y - kb * a.normal.y) / det,
-                     (a.normal.x * kb - b.normal.x * ka) / det};
+        const auto solved = [&](double to_a, double to_b) {
+            return Vec2{(to_a * b.normal.y - to_b * a.normal.y) / det,
+                        (a.normal.x * to_b - b.normal.x * to_a) / det};
+        };
+        Vec2 p = solved(ka, kb);
+        // Where they meet at a small angle roundings have led off both lines, not only along them.
+        p = p + solved(ka - dot(a.normal, p), kb - dot(b.normal, p));
         return is_finite(p) ? std::optional(p) : std::nullopt;
     }
     if (!a.is_line && b.is_line) {

@@ -12,6 +12,8 @@ namespace {
 using solids::Where;
 
 constexpr double kTurn = 2.0 * std::numbers::pi;
+/// In steps: how far from an edge it is looked into its sectors, at most.
+constexpr double kFarthest = 64.0;
 
 /// Of places that are on neither leaf: not asked for.
 constexpr Sectors kFarSectors = 0x40;
@@ -84,9 +86,9 @@ private:
             const double sa = (sector & 2U) != 0 ? -1.0 : 1.0;
             const double sb = (sector & 1U) != 0 ? -1.0 : 1.0;
             const Vec3 w = na * sa + nb * sb;
-            // Along the bisector, as far from both as the step.
+            // Along the bisector, as far from both as the step; nearer where the sector is narrow, for it may be short, too.
             const double sine = std::fabs(dot(w, na)) / norm(w);
-            const double far = step / std::max(sine, kSmooth);
+            const double far = std::min(step / sine, kFarthest * step);
             const auto where_at = [&](Vec3 way) {
                 const Vec3 p = at + way * far;
                 return operand == kBody ? body_.where(p) : body_.where_in_operand(operand, p);
