@@ -11,6 +11,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <initializer_list>
 #include <numbers>
 
 #include "raymo/blends/blend.hpp"
@@ -54,33 +55,38 @@ public:
                 cross(a, b) * (planes_[m].offset - radius)) *
                (1 / det);
     }
-    [[nodiscard]] bool holds(RealVec p, Real radius, Real slack) const {
-        return std::all_of(planes_.begin(), planes_.end(), [&](const RealPlane& plane) {
-            return dot(plane.normal, p) <= plane.offset - radius + slack;
-        });
+    /// Whether P_r holds a point that is on its planes `on`, however well that is known, and `slack` within the others.
+    [[nodiscard]] bool holds(RealVec p, Real radius, Real slack,
+                             std::initializer_list<std::size_t> on = {}) const {
+        for (std::size_t i = 0; i < size(); ++i) {
+            if (std::find(on.begin(), on.end(), i) != on.end()) continue;
+            if (dot(planes_[i].normal, p) > planes_[i].offset - radius + slack) return false;
+        }
+        return true;
     }
     /// Distance of a point from P_r; and its foot.
     [[nodiscard]] Real distance(RealVec p, Real radius) const {
         Real least = -1;
-        const auto consider = [&](RealVec c) {
+        const auto consider = [&](RealVec c, std::initializer_list<std::size_t> on) {
             const Real d = norm(c - p);
-            if ((least < 0 || d < least) && holds(c, radius, 1e-14L)) least = d;
+            if ((least < 0 || d < least) && holds(c, radius, 1e-14L, on)) least = d;
         };
-        consider(p);
+        consider(p, {});
         const auto off = [&](std::size_t i) {
             return planes_[i].offset - radius - dot(planes_[i].normal, p);
         };
         for (std::size_t i = 0; i < size(); ++i) {
             const RealVec a = planes_[i].normal;
-            consider(p + a * off(i));
+            consider(p + a * off(i), {i});
             for (std::size_t k = 0; k < i; ++k) {
                 const RealVec b = planes_[k].normal;
                 const Real g = dot(a, b);
                 if (1 - g * g < 1e-12L) continue;
-                consider(p + (a * (off(i) - g * off(k)) + b * (off(k) - g * off(i))) *
-                                 (1 / (1 - g * g)));
+                consider(
+                    p + (a * (off(i) - g * off(k)) + b * (off(k) - g * off(i))) * (1 / (1 - g * g)),
+                    {i, k});
                 for (std::size_t m = 0; m < k; ++m) {
-                    if (const auto c = vertex(i, k, m, radius)) consider(*c);
+                    if (const auto c = vertex(i, k, m, radius)) consider(*c, {i, k, m});
                 }
             }
         }

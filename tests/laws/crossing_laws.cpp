@@ -223,7 +223,7 @@ void add_crossing_laws(std::vector<Law>& laws) {
                     [](std::uint64_t rays, Random& random, Tally& tally) {
                         crossings(rays, random, tally, true);
                     }});
-    laws.push_back({"blends: chamfers and conics of surfaces that cross", 1000000,
+    laws.push_back({"blends: chamfers and conics of surfaces that cross", 1500000,
                     [](std::uint64_t rays, Random& random, Tally& tally) {
                         crossings(rays, random, tally, false);
                     }});
