@@ -114,11 +114,10 @@ Failure touching_error(const Body& body, std::size_t face_a, std::size_t face_b,
                 "move or resize one of them so that they cross at an angle");
 }
 
-/// An edge that has no angle can not be rolled along, and would be left as it is without a word.
+/// Error: faces that touch without an edge, which would be left as they are without a word; unless one edge is asked for and there is.
 Result<void> check_touching(const Body& body, bool within_operands, std::optional<Edges> only,
                             const std::vector<Segment>& edges, const Form& form,
                             const Spend& spend) {
-    // Who chooses an edge asks for no other.
     if (form.near && !edges.empty()) return {};
     const auto chosen = [&](Vec3 p) { return !form.where || is_inside(form.where, p); };
     auto touching = find_touching(body, within_operands, only, edges, chosen, spend);
@@ -353,6 +352,7 @@ Result<Blended> blend(const Body& body, csg::Solid sharp, bool within_operands,
         !known) {
         return Failure(std::move(known).error());
     }
+
     if (!go_on(static_cast<double>(segments.size()))) return stopped;
     auto corners = find_corners(body, segments, form.profile, form.radius);
     if (!corners) return Failure(std::move(corners).error());

@@ -13,7 +13,7 @@ using solids::Where;
 
 constexpr double kTurn = 2.0 * std::numbers::pi;
 /// In steps: how far from an edge it is looked into its sectors, at most.
-constexpr double kFarthest = 64.0;
+constexpr double kMostAside = 64.0;
 
 /// Of places that are on neither leaf: not asked for.
 constexpr Sectors kFarSectors = 0x40;
@@ -88,7 +88,7 @@ private:
             const Vec3 w = na * sa + nb * sb;
             // Along the bisector, as far from both as the step; nearer where the sector is narrow, for it may be short, too.
             const double sine = std::fabs(dot(w, na)) / norm(w);
-            const double far = std::min(step / sine, kFarthest * step);
+            const double far = std::min(step / sine, kMostAside * step);
             const auto where_at = [&](Vec3 way) {
                 const Vec3 p = at + way * far;
                 return operand == kBody ? body_.where(p) : body_.where_in_operand(operand, p);

@@ -24,11 +24,11 @@ constexpr double kMet = 0x1p-40;
 /// Of that size: boxes that are not halved any more.
 constexpr double kSmallestBox = 0x1p-5;
 /// In smallest boxes: how far Newton's method may go from its start.
-constexpr double kFarthest = 8.0;
+constexpr double kLongestWay = 8.0;
 /// Of that size: the differences by which curvatures are told, and the last step of Newton's method. A gap is off by its square.
 constexpr double kDifference = 0x1p-17;
 constexpr double kLastStep = 0x1p-26;
-/// Relative curvature times that size: what is curved less is flush.
+/// Relative curvature times that size: what is curved less is flush. Far above what differences of normals are off by.
 constexpr double kFlush = 0x1p-20;
 /// Of that size: how far above and below a contact it is asked what is solid, and how far about it.
 constexpr double kAcross = 0x1p-16;
@@ -37,11 +37,13 @@ constexpr double kAbout = 0x1p-7;
 constexpr double kOnFace = 64.0;
 /// In slacks: how far apart faces are between which it can be asked what is solid.
 constexpr double kParted = 1024.0;
+/// In so many directions about a contact it is asked what is solid.
 constexpr int kDirections = 8;
+/// Of Newton's method, at most.
 constexpr int kMostSteps = 24;
-/// From where Newton's method is tried, at most, for two faces.
-constexpr int kMostStarts = 96;
-/// What is spent on it, at most, in units of some 100 ns.
+/// Places from which it is tried for two faces, at most: along all of a contact that is a curve.
+constexpr int kMostStarts = 256;
+/// What the search among all faces takes, at most, in units of some 100 ns.
 constexpr double kMostWork = 2e6;
 
 using FacePair = std::pair<std::size_t, std::size_t>;
@@ -76,7 +78,7 @@ public:
             }
             ++starts;
             const auto p = settle(a.surface, b.surface, box.centre());
-            if (p && is_edgeless(a, b, *p) && chosen_(*p)) return p;
+            if (p && is_crevice(a, b, *p) && chosen_(*p)) return p;
         }
         return std::nullopt;
     }
@@ -157,7 +159,7 @@ private:
             }
             if (is_flush) return std::nullopt;
             p = p + step;
-            if (!is_finite(p) || norm(p - start) > kFarthest * kSmallestBox * size_)
+            if (!is_finite(p) || norm(p - start) > kLongestWay * kSmallestBox * size_)
                 return std::nullopt;
             if (norm(step) <= kLastStep * size_) break;
         }
@@ -167,8 +169,9 @@ private:
         return is_met ? std::optional(p) : std::nullopt;
     }
 
-    /// Whether both faces are all about p, with a crevice between them or next to nothing.
-    bool is_edgeless(const Face& a, const Face& b, Vec3 p) {
+    /// Whether both faces are all about p and what is between them is unlike what is above and below: a crevice of the solid, or a
+    /// wall that ends in nothing.
+    bool is_crevice(const Face& a, const Face& b, Vec3 p) {
         if (!go_on((2.0 + kDirections) * body_.where_work())) return false;
         const Vec3 n = a.surface.normal(p);
         const solids::Where one = body_.where(p + n * (kAcross * size_));

@@ -1,5 +1,4 @@
 // Solids that touch without crossing: where they touch is known by how they are placed.
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <random>
@@ -25,9 +24,13 @@ public:
                (rotation(direction(), number(0.0, 360.0)) *
                 scaling(Vec3{1.0, 1.0, 1.0} * std::exp2(number(-3.0, 3.0))));
     }
-    /// Of one of five kinds, below z = 0, which its side touches in the origin alone or along a line.
+    /// A sphere, a cylinder, a cone, a torus or a block (0 to 4) below the plane z = 0, which it touches in the origin, alone or along
+    /// a line, or with a face.
     csg::Solid below(int kind) {
-        if (kind == 0) return move(sphere_of(number(0.5, 3.0)), {});
+        if (kind == 0) {
+            const double r = number(0.5, 3.0);
+            return move(sphere(r), {0.0, 0.0, -r});
+        }
         if (kind == 1) {
             const double h = number(2.0, 6.0);
             const double r = number(0.5, 3.0);
@@ -52,7 +55,6 @@ public:
     }
 
 private:
-    static csg::Solid sphere_of(double r) { return move(sphere(r), {0.0, 0.0, -r}); }
     /// Turns a solid so that its point p comes to the origin, and its normal there, at an angle to x towards z, to z.
     static csg::Solid laid(csg::Solid s, Vec3 p, double normal) {
         const double degrees = 90.0 - normal * 180.0 / std::numbers::pi;
